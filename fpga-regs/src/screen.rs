@@ -1,0 +1,108 @@
+//! Sizes and number formats that software and FPGA share.
+//!
+//! Screen coordinates: x to the right, y **down**, row 0 on top, pixel centres at .5.
+//! Sub-pixel coordinates count sixteenths of a pixel.
+
+use fixed::FixedI32;
+use fixed::types::extra::U12;
+
+/// Screen width in pixels. VGA shows every pixel twice: 640.
+pub const WIDTH: u32 = 320;
+/// Screen height in pixels. VGA shows every row twice: 480.
+pub const HEIGHT: u32 = 240;
+/// Pixels of one buffer.
+pub const PIXELS: usize = (WIDTH * HEIGHT) as usize;
+
+/// Fraction bits of a sub-pixel coordinate: sixteenths of a pixel.
+pub const SUBPIXEL_BITS: u32 = 4;
+/// Sub-pixel steps in one pixel.
+pub const SUBPIXEL: i32 = 1 << SUBPIXEL_BITS;
+
+/// Guard band: the largest magnitude of a vertex's screen coordinate, in sixteenths of a pixel,
+/// that triangle setup takes (1023.9375 pixels on each side of the screen's upper left corner).
+///
+/// Chosen by the number format: the difference of two such coordinates fits in 16 bits, and
+/// twice the area of a triangle between them in 31.
+pub const GUARD_BAND: i32 = (1 << 14) - 1;
+
+/// Fraction bits of depth and its steps in a packet (Q20.12).
+pub const DEPTH_FRACTION_BITS: u32 = 12;
+/// The depth that a clear leaves, and the far plane.
+pub const DEPTH_FAR: u16 = u16::MAX;
+
+/// Depth at a pixel in a packet, and its step from pixel to pixel: signed Q20.12, **modulo 2³²**.
+pub type PacketDepth = FixedI32<U12>;
+
+/// Words of address space behind the FIFO aperture: a write to any of them pushes one word.
+pub const FIFO_APERTURE_WORDS: usize = 1024;
+/// Offset of the FIFO aperture from the registers when both sit on the lightweight bridge, in bytes.
+pub const LIGHTWEIGHT_APERTURE_OFFSET: usize = 0x1000;
+
+/// A colour as the framebuffer holds it: red in bits 7…5, green in 4…2, blue in 1…0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(transparent)]
+pub struct Rgb332(pub u8);
+
+impl Rgb332 {
+    /// Black.
+    pub const BLACK: Self = Self(0);
+
+    /// Returns the nearest RGB332 colour to an 8-bit-per-channel one; a tie goes up.
+    #[inline(always)]
+    pub const fn nearest(red: u8, green: u8, blue: u8) -> Self {
+        // round(v·7/255) = (v·7 + 127)/255, and the division by 255 is exact as
+        // (t + (t >> 8) + 1) >> 8 for t below 65,280.
+        let red = divide_by_255(red as u32 * 7 + 127);
+        let green = divide_by_255(green as u32 * 7 + 127);
+        let blue = divide_by_255(blue as u32 * 3 + 127);
+        Self((red << 5 | green << 2 | blue) as u8)
+    }
+
+    /// Returns the 8-bit-per-channel colour that the VGA converter is given, by bit replication:
+    /// 0 is 0 and full scale is 255 in every channel.
+    pub const fn to_rgb888(self) -> [u8; 3] {
+        let (red, green, blue) = (self.0 >> 5, self.0 >> 2 & 7, self.0 & 3);
+        [red << 5 | red << 2 | red >> 1, green << 5 | green << 2 | green >> 1, blue * 0x55]
+    }
+}
+
+#[inline(always)]
+const fn divide_by_255(value: u32) -> u32 {
+    (value + (value >> 8) + 1) >> 8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_is_the_nearest_of_all_levels() {
+        for value in 0..=255u8 {
+            let closest = |levels: u32| {
+                let distance = |level: &u32| (f64::from(*level) * 255.0 / f64::from(levels) - f64::from(value)).abs();
+                (0..=levels).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+            };
+            let got = Rgb332::nearest(value, value, value).0;
+            assert_eq!(u32::from(got >> 5), closest(7), "red of {value}");
+            assert_eq!(u32::from(got >> 2 & 7), closest(7), "green of {value}");
+            assert_eq!(u32::from(got & 3), closest(3), "blue of {value}");
+        }
+    }
+
+    #[test]
+    fn every_colour_survives_the_way_to_the_screen_and_back() {
+        for bits in 0..=255 {
+            let [red, green, blue] = Rgb332(bits).to_rgb888();
+            assert_eq!(Rgb332::nearest(red, green, blue), Rgb332(bits));
+        }
+        assert_eq!(Rgb332(0xff).to_rgb888(), [255; 3]);
+    }
+
+    #[test]
+    fn the_guard_band_keeps_differences_in_16_bits_and_doubled_areas_in_31() {
+        assert!(2 * GUARD_BAND <= i32::from(i16::MAX));
+        assert!(i64::from(2 * GUARD_BAND) * i64::from(2 * GUARD_BAND) < 1 << 30);
+        assert!((WIDTH.max(HEIGHT) as i32) < GUARD_BAND / SUBPIXEL);
+    }
+}
