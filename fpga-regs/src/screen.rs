@@ -51,11 +51,8 @@ impl Rgb332 {
     /// Returns the nearest RGB332 colour to an 8-bit-per-channel one; a tie goes up.
     #[inline(always)]
     pub const fn nearest(red: u8, green: u8, blue: u8) -> Self {
-        // round(v·7/255) = (v·7 + 127)/255, and the division by 255 is exact as
-        // (t + (t >> 8) + 1) >> 8 for t below 65,280.
-        let red = divide_by_255(red as u32 * 7 + 127);
-        let green = divide_by_255(green as u32 * 7 + 127);
-        let blue = divide_by_255(blue as u32 * 3 + 127);
+        // round(v·7/255) and round(v·3/255), exact for every v below 256 (tested).
+        let (red, green, blue) = (nearest_of_8(red), nearest_of_8(green), (blue as u32 * 193 + 8192) >> 14);
         Self((red << 5 | green << 2 | blue) as u8)
     }
 
@@ -68,8 +65,8 @@ impl Rgb332 {
 }
 
 #[inline(always)]
-const fn divide_by_255(value: u32) -> u32 {
-    (value + (value >> 8) + 1) >> 8
+const fn nearest_of_8(channel: u8) -> u32 {
+    (channel as u32 * 225 + 4096) >> 13
 }
 
 #[cfg(test)]

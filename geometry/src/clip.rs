@@ -1,0 +1,113 @@
+//! Clipping in homogeneous space: near and far planes, w, and the guard band.
+//!
+//! Sutherland and Hodgman's algorithm ("Reentrant polygon clipping", CACM 17, 1974), a plane at
+//! a time. The slow path: most triangles need none of it.
+
+use crate::transform::{Homogeneous, SMALLEST_W};
+
+/// Planes that a triangle may cross.
+const PLANES: usize = 7;
+/// Corners of a triangle after each plane has added one.
+pub const MAX_CORNERS: usize = 3 + PLANES;
+
+/// A convex polygon of at most [`MAX_CORNERS`] corners.
+#[derive(Debug, Clone, Copy)]
+pub struct Polygon {
+    corners: [Homogeneous; MAX_CORNERS],
+    count: usize,
+}
+
+impl Polygon {
+    fn empty() -> Self {
+        Self { corners: [Homogeneous { x: 0, y: 0, z: 0, w: 0 }; MAX_CORNERS], count: 0 }
+    }
+
+    fn push(&mut self, corner: Homogeneous) {
+        // A plane cuts a convex polygon in two points at most, so there is always room; a
+        // polygon that rounding made concave loses a corner rather than the frame.
+        if let Some(slot) = self.corners.get_mut(self.count) {
+            *slot = corner;
+            self.count += 1;
+        }
+    }
+
+    /// Returns the corners in order.
+    pub fn corners(&self) -> &[Homogeneous] {
+        &self.corners[..self.count]
+    }
+}
+
+/// Signed distance of a vertex to a plane, positive inside, scaled by the plane's own factor.
+fn distance(vertex: &Homogeneous, plane: usize) -> i64 {
+    let (w, guard) = (i64::from(vertex.w), i64::from(vertex.guard_band()));
+    match plane {
+        0 => w - i64::from(SMALLEST_W),
+        1 => i64::from(vertex.z),
+        2 => w - i64::from(vertex.z),
+        3 => guard - i64::from(vertex.x),
+        4 => guard + i64::from(vertex.x),
+        5 => guard - i64::from(vertex.y),
+        _ => guard + i64::from(vertex.y),
+    }
+}
+
+/// Returns the part of a triangle that lies inside all planes; empty if there is none.
+///
+/// The corners keep their order. An edge that two triangles share is cut at the same points in
+/// both, whichever way round they take it, so clipping opens no cracks.
+pub fn clip(triangle: [Homogeneous; 3]) -> Polygon {
+    let mut polygon = Polygon::empty();
+    for corner in triangle {
+        polygon.push(corner);
+    }
+    for plane in 0..PLANES {
+        if polygon.corners().iter().all(|corner| distance(corner, plane) >= 0) {
+            continue;
+        }
+        polygon = clip_at(&polygon, plane);
+    }
+    polygon
+}
+
+fn clip_at(polygon: &Polygon, plane: usize) -> Polygon {
+    let mut inside = Polygon::empty();
+    let corners = polygon.corners();
+    for (index, corner) in corners.iter().enumerate() {
+        let next = &corners[(index + 1) % corners.len()];
+        let (here, there) = (distance(corner, plane), distance(next, plane));
+        if here >= 0 {
+            inside.push(*corner);
+        }
+        if (here >= 0) != (there >= 0) {
+            inside.push(intersection(corner, here, next, there, plane));
+        }
+    }
+    inside
+}
+
+/// The point between two vertices where the distance is 0.
+///
+/// a·|d_b| + b·|d_a| over |d_a| + |d_b|: the same for (a, b) and (b, a). Each coordinate is
+/// rounded once, half up; then moved onto the plane's inner side, if rounding put it outside.
+fn intersection(a: &Homogeneous, here: i64, b: &Homogeneous, there: i64, plane: usize) -> Homogeneous {
+    let (here, there) = (here.abs(), there.abs());
+    let sum = here + there;
+    // Coordinates are below 2²⁹ and distances below 2³¹, so the sums are below 2⁶².
+    let between = |a: i32, b: i32| {
+        let numerator = i64::from(a) * there + i64::from(b) * here;
+        (numerator + sum / 2).div_euclid(sum) as i32
+    };
+    let mut point =
+        Homogeneous { x: between(a.x, b.x), y: between(a.y, b.y), z: between(a.z, b.z), w: between(a.w, b.w) };
+    let outside = (-distance(&point, plane)).clamp(0, 4) as i32;
+    match plane {
+        0 => point.w += outside,
+        1 => point.z += outside,
+        2 => point.z -= outside,
+        3 => point.x -= outside,
+        4 => point.x += outside,
+        5 => point.y -= outside,
+        _ => point.y += outside,
+    }
+    point
+}

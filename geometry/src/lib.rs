@@ -1,0 +1,44 @@
+//! From a mesh and matrices to triangle packets, in integers only.
+//!
+//! | module | step |
+//! | --- | --- |
+//! | [`mesh`] | positions, faces, winding, checked once |
+//! | [`matrix`] | model, view and projection, composed in 64 bits |
+//! | [`transform`] | a vertex to screen space: one dot product a row, one reciprocal |
+//! | [`clip`] | homogeneous clipping at the near and far planes and the guard band |
+//! | [`light`] | ambient and directional light, a colour a face |
+//! | [`setup`] | edge functions, box and depth plane of a screen triangle |
+//! | [`pipeline`] | all of it for a mesh: [`draw`] |
+//! | [`angle`], [`reciprocal`] | sine and cosine; 1/x without a divide instruction |
+//! | [`shapes`] | meshes that the project makes itself |
+//!
+//! The same input gives the same words on every machine: there is no floating point between a
+//! vertex and its packet, so a golden test on a PC is a test of the Cortex-A9.
+//!
+//! Spaces are OpenGL's: right-handed, column vectors, clip space −w…w with y up. On screen y is
+//! down, row 0 on top, pixel centres at .5, coordinates in sixteenths of a pixel; depth is 0 at
+//! the near plane and 65,535 at the far one.
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+pub mod angle;
+pub mod clip;
+pub mod light;
+pub mod matrix;
+pub mod mesh;
+pub mod pipeline;
+pub mod reciprocal;
+pub mod setup;
+pub mod shapes;
+pub mod transform;
+
+pub use angle::Angle;
+pub use light::{DirectionalLight, FaceLight};
+pub use matrix::{Matrix, Vector};
+pub use mesh::{Face, Mesh, MeshError, Winding};
+pub use pipeline::{Culling, DrawError, DrawStatistics, Sink, draw};
+pub use setup::ScreenVertex;
+pub use transform::ScreenTransform;
