@@ -54,7 +54,7 @@ mod tests {
         let interval = 1u32 << (31 - INDEX_BITS);
         let ends = (0..ENTRIES as u32).flat_map(|entry| {
             let first = (1 << 31) + entry * interval;
-            [first, first + 1, first + interval - 1, first + interval / 2]
+            [first, first + 1, first + (interval - 1), first + interval / 2]
         });
         let sweep = (0..3_000_000u32).map(|sample| (1 << 31) | sample.wrapping_mul(715_827_883));
         let worst = ends.chain(sweep).map(relative_error).fold(0.0, f64::max);
