@@ -1,0 +1,175 @@
+//! Pad and keyboard, merged.
+
+use crate::edges::EdgeLatch;
+use crate::keyboard_state::KeyboardState;
+use crate::pad_state::{Movement, PadState};
+use crate::{
+    Button, Config, ControllerState, DualShock3Report, KeyboardReport, Report, ReportError, Source, Stick, Tilt,
+};
+
+/// Takes in reports and keeps the [`ControllerState`] that they make.
+///
+/// Reports may come at any rate: [`state`](Self::state) is read, and [`end_frame`](Self::end_frame)
+/// called, once a frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Controls {
+    config: Config,
+    pad: Option<PadState>,
+    keyboard: KeyboardState,
+    edges: EdgeLatch,
+    /// The pose as it is, seen or not.
+    tilt: Tilt,
+    /// The tilt is the pad's, which moved last; else it is what the keys made of it. A pad that is
+    /// plugged in leads at once.
+    pad_leads: bool,
+    /// The pose that is seen while Cross is held.
+    frozen: Option<Tilt>,
+    last_moved: Option<Source>,
+}
+
+impl Controls {
+    /// Starts with nothing connected, nothing held and a level tilt.
+    #[must_use]
+    pub fn new(config: Config) -> Self {
+        Self {
+            config,
+            pad: None,
+            keyboard: KeyboardState::default(),
+            edges: EdgeLatch::default(),
+            tilt: Tilt::LEVEL,
+            pad_leads: false,
+            frozen: None,
+            last_moved: None,
+        }
+    }
+
+    /// Takes in a report of any kind.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError`] for one that cannot be read; nothing has changed then.
+    pub fn accept(&mut self, report: Report<'_>) -> Result<(), ReportError> {
+        match report {
+            Report::DualShock3(bytes) => self.accept_dualshock3(bytes),
+            Report::Keyboard(bytes) => self.accept_keyboard(bytes),
+            Report::Disconnected(source) => {
+                self.disconnect(source);
+                Ok(())
+            }
+        }
+    }
+
+    /// Takes in a serial frame of kind 0x01 to 0x03.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError`] for any other kind and for a payload that cannot be read; nothing has changed
+    /// then.
+    pub fn accept_frame(&mut self, kind: u8, payload: &[u8]) -> Result<(), ReportError> {
+        self.accept(Report::from_frame(kind, payload)?)
+    }
+
+    /// Takes in a DualShock 3's input report, 49 bytes. The first one makes the pad present.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError`] as of [`DualShock3Report::parse`]; nothing has changed then.
+    pub fn accept_dualshock3(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
+        let report = DualShock3Report::parse(bytes)?;
+        let movement = match &mut self.pad {
+            Some(pad) => pad.update(&report, &self.config),
+            absent => {
+                *absent = Some(PadState::new(&report, &self.config));
+                Movement { tilt: true, anything: true }
+            }
+        };
+        self.pad_leads |= movement.tilt;
+        if movement.anything {
+            self.last_moved = Some(Source::DualShock3);
+        }
+        self.merge();
+        Ok(())
+    }
+
+    /// Takes in a boot keyboard's report, 8 bytes. One that says "too many keys" changes nothing.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::KeyboardLength`]; nothing has changed then.
+    pub fn accept_keyboard(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
+        if let Some(report) = KeyboardReport::parse(bytes)?
+            && self.keyboard.update(report)
+        {
+            self.last_moved = Some(Source::Keyboard);
+            self.merge();
+        }
+        Ok(())
+    }
+
+    /// Lets go of everything that a source holds. The tilt stays where it is.
+    pub fn disconnect(&mut self, source: Source) {
+        match source {
+            Source::DualShock3 => self.pad = None,
+            Source::Keyboard => self.keyboard = KeyboardState::default(),
+        }
+        self.merge();
+    }
+
+    /// Returns what the application is to see now.
+    #[must_use]
+    pub fn state(&self) -> ControllerState {
+        let stick = |of: fn(&PadState) -> Stick| self.pad.as_ref().map(of).unwrap_or_default();
+        ControllerState {
+            tilt: self.frozen.unwrap_or(self.tilt),
+            frozen: self.frozen.is_some(),
+            left_stick: stick(|pad| pad.left_stick).merged(self.keyboard.left_stick()),
+            right_stick: stick(|pad| pad.right_stick).merged(self.keyboard.right_stick()),
+            held: self.edges.held,
+            pressed: self.edges.pressed,
+            released: self.edges.released,
+            pad_present: self.pad.is_some(),
+            battery: self.pad.map(|pad| pad.battery).unwrap_or_default(),
+            last_moved: self.last_moved,
+        }
+    }
+
+    /// Ends a frame: forgets the edges, and turns the tilt by the arrow keys that are down
+    /// or were tapped in it: a key that is down at n ends of frames turns n times, and at least once.
+    pub fn end_frame(&mut self) {
+        let rate = self.config.key_tilt_degrees_per_frame;
+        let [roll, pitch] = self.keyboard.turning();
+        if [roll, pitch] != [0, 0] {
+            let step = |way: i32| rate.saturating_mul_int(way);
+            self.tilt = self.tilt.turned(step(roll), step(pitch));
+            self.keys_lead();
+            self.last_moved = Some(Source::Keyboard);
+        }
+        self.keyboard.end_frame();
+        self.edges.end_frame();
+    }
+
+    /// Makes one of both sources after either has changed.
+    fn merge(&mut self) {
+        let before = self.tilt;
+        let mut held = self.keyboard.held;
+        if let Some(pad) = &self.pad {
+            held |= pad.held;
+            if self.pad_leads {
+                self.tilt = pad.tilt;
+            }
+        }
+        if self.edges.update(held).contains(Button::R3) {
+            self.tilt = Tilt::LEVEL;
+            self.keys_lead();
+        }
+        self.frozen = held.contains(Button::Cross).then_some(self.frozen.unwrap_or(before));
+    }
+
+    /// Takes the tilt from the pad until it moves again.
+    fn keys_lead(&mut self) {
+        self.pad_leads = false;
+        if let Some(pad) = &mut self.pad {
+            pad.settle();
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Turns reports of a DualShock 3, a USB keyboard or a serial line into one [`ControllerState`].
+//!
+//! The crate reads bytes that somebody else fetched and stands on no bus, clock or board. Integers
+//! throughout, but for the stick's response curve.
+//!
+//! ```
+//! use controls::{Button, Config, Controls, KeyboardReport};
+//!
+//! let mut controls = Controls::new(Config::default());
+//! let space = KeyboardReport { modifiers: 0, usages: [0x2C, 0, 0, 0, 0, 0] };
+//! controls.accept_keyboard(&space.to_bytes())?;     // whenever a report comes in
+//! let state = controls.state();                     // once a frame: draw from this,
+//! assert!(state.frozen && state.pressed.contains(Button::Cross));
+//! controls.end_frame();                             // then forget the edges
+//! # Ok::<(), controls::ReportError>(())
+//! ```
+//!
+//! # What each control does
+//!
+//! | control | DualShock 3 | keyboard | effect |
+//! | --- | --- | --- | --- |
+//! | roll | lean it left, right | Left, Right arrow | [`tilt.roll`](Tilt::roll): the model leans; keys up to ±90°, kept on release |
+//! | pitch | raise, lower its far edge | Up, Down arrow | [`tilt.pitch`](Tilt::pitch): the model nods; keys up to ±90°, kept on release |
+//! | pan | left stick | A, D; W, S | [`pan()`](ControllerState::pan): the model moves across the screen |
+//! | turn | right stick, left–right | Q, E | [`turn()`](ControllerState::turn): the model spins about its upright axis |
+//! | zoom | right stick, up–down | `+` `-`, Page Up/Down, Z X | [`zoom()`](ControllerState::zoom): nearer, farther |
+//! | step | D-pad | I J K L | one step a press, for scenes that move in steps |
+//! | freeze | Cross | Space | [`frozen`](ControllerState::frozen): the pose stays while it is held |
+//! | next scene | Start | Enter, keypad Enter | a press |
+//! | previous scene | Select | Backspace | a press |
+//! | shading | Triangle | Tab | wire frame, flat, smooth, depth |
+//! | projection | Circle | C | perspective or parallel |
+//! | step mode | Square | V | steps rotate or steps pan |
+//! | reset pose | R3 (push the right stick) | R | the tilt is level again, at once |
+//! | fit | L3 (push the left stick) | F | the model fills the screen |
+//! | previous, next model | L1, R1 | 1, 2 | a press |
+//! | slower, faster | L2, R2 | 3, 4 | a press |
+//! | menu | PS | Escape | a press |
+//!
+//! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
+//! every other control is the application's, and the table is what it should be.
+//!
+//! # How two sources make one state
+//!
+//! Pad and keyboard are kept apart and merged: buttons are held if either holds them, sticks add up
+//! to at most ±1, and the **tilt belongs to the source that moved last**. A pad moves by more than
+//! the dead zone in any axis of its accelerometer; a keyboard moves by an arrow or R. Arrow keys
+//! turn on from the tilt that is shown. [`Controls::disconnect`] lets go of one source's buttons and
+//! sticks, and leaves the tilt where it is.
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+mod acceleration;
+mod battery;
+mod button;
+mod config;
+mod controls;
+mod cordic;
+mod dualshock3;
+mod edges;
+mod key_axes;
+mod keyboard;
+mod keyboard_state;
+mod keymap;
+mod low_pass;
+mod pad_state;
+mod report;
+mod report_error;
+pub mod serial;
+mod source;
+mod state;
+mod stick;
+mod tilt;
+
+pub use acceleration::Acceleration;
+pub use battery::Battery;
+pub use button::{Button, Buttons};
+pub use config::Config;
+pub use controls::Controls;
+pub use dualshock3::DualShock3Report;
+pub use key_axes::KeyAxis;
+pub use keyboard::KeyboardReport;
+pub use keymap::{KeyAction, key_action};
+pub use low_pass::LowPass;
+pub use report::Report;
+pub use report_error::ReportError;
+pub use source::Source;
+pub use state::ControllerState;
+pub use stick::{Stick, StickResponse};
+pub use tilt::Tilt;
