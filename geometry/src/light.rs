@@ -46,7 +46,7 @@ impl FaceLight {
         let clamp = |value: I16F16| i64::from(value.clamp(I16F16::ZERO, I16F16::ONE).to_bits());
         let diffuse = clamp(light.diffuse);
         // Q32.32 · Q16.16 is Q48; the unit vector keeps it in range.
-        let direction = local.map(|part| ((part.to_bits() >> 16) * diffuse + (1 << 17) >> 18) as i32);
+        let direction = local.map(|part| (((part.to_bits() >> 16) * diffuse + (1 << 17)) >> 18) as i32);
         Self { direction, ambient: (clamp(light.ambient) << (DOT_BITS - 16)) as i32 }
     }
 

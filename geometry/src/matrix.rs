@@ -178,8 +178,8 @@ pub fn to_unit_parts(vector: Vector) -> [I2F30; 3] {
 }
 
 fn sum_of_products(pairs: impl Iterator<Item = (I32F32, I32F32)>) -> I32F32 {
-    let sum: i128 = pairs.map(|(a, b)| i128::from(a.to_bits()) * i128::from(b.to_bits()) >> 2).sum();
-    saturate(sum + (1 << 29) >> 30)
+    let sum: i128 = pairs.map(|(a, b)| (i128::from(a.to_bits()) * i128::from(b.to_bits())) >> 2).sum();
+    saturate((sum + (1 << 29)) >> 30)
 }
 
 /// `numerator/denominator`, rounded half up and saturated; a zero denominator saturates too.

@@ -84,8 +84,7 @@ impl<E: fmt::Display> fmt::Display for DrawError<E> {
 
 impl<E: fmt::Debug + fmt::Display> core::error::Error for DrawError<E> {}
 
-/// Draws a mesh: every vertex is transformed once, into `cache`, then every face becomes no, one
-/// or (if clipped) several triangles in `sink`.
+/// Draws a mesh: [`Transformed::new`], then [`Transformed::draw`].
 ///
 /// # Errors
 /// [`DrawError::CacheTooSmall`] before anything is drawn; [`DrawError::Sink`] when the sink
@@ -98,19 +97,53 @@ pub fn draw<S: Sink>(
     cache: &mut [ScreenVertex],
     sink: &mut S,
 ) -> Result<DrawStatistics, DrawError<S::Error>> {
-    let positions = mesh.positions();
-    let given = cache.len();
-    let cache = cache.get_mut(..positions.len()).ok_or(DrawError::CacheTooSmall { needed: positions.len(), given })?;
-    transform_vertices(mesh, transform, cache);
-    let pass = Pass { mesh, transform, light, culling, cache };
-    let mut statistics = DrawStatistics {
-        vertices: positions.len() as u32,
-        submitted: mesh.faces().len() as u32,
-        ..DrawStatistics::default()
-    };
-    match pass.faces(sink, &mut statistics) {
-        Ok(()) => Ok(statistics),
-        Err(error) => Err(DrawError::Sink(error)),
+    Transformed::new(mesh, transform, cache)?.draw(light, culling, sink)
+}
+
+/// A mesh whose vertices are on the screen: each was transformed once, however many faces share it.
+#[derive(Debug, Clone, Copy)]
+pub struct Transformed<'a> {
+    mesh: &'a Mesh<'a>,
+    transform: &'a ScreenTransform,
+    cache: &'a [ScreenVertex],
+}
+
+impl<'a> Transformed<'a> {
+    /// Transforms every vertex of `mesh` into `cache`.
+    ///
+    /// # Errors
+    /// [`DrawError::CacheTooSmall`] when the cache holds fewer vertices than the mesh.
+    pub fn new<E>(
+        mesh: &'a Mesh<'a>,
+        transform: &'a ScreenTransform,
+        cache: &'a mut [ScreenVertex],
+    ) -> Result<Self, DrawError<E>> {
+        let (needed, given) = (mesh.positions().len(), cache.len());
+        let cache = cache.get_mut(..needed).ok_or(DrawError::CacheTooSmall { needed, given })?;
+        transform_vertices(mesh, transform, cache);
+        Ok(Self { mesh, transform, cache })
+    }
+
+    /// Turns every face into no, one or (if it is clipped) several triangles in `sink`.
+    ///
+    /// # Errors
+    /// [`DrawError::Sink`] when the sink refuses a triangle, which ends the drawing there.
+    pub fn draw<S: Sink>(
+        &self,
+        light: &FaceLight,
+        culling: Culling,
+        sink: &mut S,
+    ) -> Result<DrawStatistics, DrawError<S::Error>> {
+        let pass = Pass { mesh: self.mesh, transform: self.transform, light, culling, cache: self.cache };
+        let mut statistics = DrawStatistics {
+            vertices: self.cache.len() as u32,
+            submitted: self.mesh.faces().len() as u32,
+            ..DrawStatistics::default()
+        };
+        match pass.faces(sink, &mut statistics) {
+            Ok(()) => Ok(statistics),
+            Err(error) => Err(DrawError::Sink(error)),
+        }
     }
 }
 

@@ -143,15 +143,12 @@ fn viewport_rows(matrix: &Matrix) -> [[i128; 4]; 4] {
     const _: () = assert!(SUBPIXEL == 1 << (FULL_SCALE_BITS + 1 - VIEWPORT_BITS), "the viewport's factor is 2^-11");
     const _: () = assert!(DEPTH_FAR == 65_535, "project() multiplies by 65,535");
     let bits = |row: usize, column: usize| i128::from(I32F32::to_bits(matrix.rows[row][column]));
-    let mut rows = [[0; 4]; 4];
-    for column in 0..4 {
-        let w = bits(3, column);
-        rows[0][column] = (w + bits(0, column)) * i128::from(WIDTH);
-        rows[1][column] = (w - bits(1, column)) * i128::from(HEIGHT);
-        rows[2][column] = (w + bits(2, column)) << (VIEWPORT_BITS - 1);
-        rows[3][column] = w << VIEWPORT_BITS;
-    }
-    rows
+    [
+        [0, 1, 2, 3].map(|column| (bits(3, column) + bits(0, column)) * i128::from(WIDTH)),
+        [0, 1, 2, 3].map(|column| (bits(3, column) - bits(1, column)) * i128::from(HEIGHT)),
+        [0, 1, 2, 3].map(|column| (bits(3, column) + bits(2, column)) << (VIEWPORT_BITS - 1)),
+        [0, 1, 2, 3].map(|column| bits(3, column) << VIEWPORT_BITS),
+    ]
 }
 
 /// A row divided by 2^`spare` (multiplied, if negative), rounded half up.

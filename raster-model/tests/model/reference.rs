@@ -1,0 +1,120 @@
+//! The contract, done the plainest way: every pixel of every box, bit positions written out.
+//!
+//! Shares no code with the model and none with `fpga_regs::packet` but the sizes.
+
+use fpga_regs::Counters;
+use fpga_regs::screen::{HEIGHT, PIXELS, WIDTH};
+use raster_model::Device;
+
+/// Everything that words can change.
+pub struct Reference {
+    pub colours: [Vec<u8>; 2],
+    pub depths: Vec<u16>,
+    pub front: usize,
+    pub fence: u32,
+    pub counters: Counters,
+}
+
+impl Reference {
+    /// Returns a reference whose buffers are full of zeros.
+    pub fn new() -> Self {
+        Self {
+            colours: [vec![0; PIXELS], vec![0; PIXELS]],
+            depths: vec![0; PIXELS],
+            front: 0,
+            fence: 0,
+            counters: Counters::default(),
+        }
+    }
+
+    /// Does a whole stream. Returns how many words the packet lacks that the stream ends in.
+    pub fn take(&mut self, stream: &[u32]) -> usize {
+        let mut at = 0;
+        while at < stream.len() {
+            let header = stream[at];
+            let (kind, length, reserved, colour) =
+                (header >> 24, (header >> 16 & 0xff) as usize, header >> 8 & 0xff, header as u8);
+            let end = at + 1 + length;
+            let good_header = reserved == 0
+                && match kind {
+                    0x01 => length == 1,
+                    0x02 => length == 10,
+                    0x10 => length == 0 && colour == 0,
+                    0x11 => length == 1 && colour == 0,
+                    _ => false,
+                };
+            if !good_header {
+                self.counters.bad_packets += 1;
+            } else if end <= stream.len() {
+                self.execute(kind, colour, &stream[at + 1..end]);
+            }
+            at = end;
+        }
+        at - stream.len()
+    }
+
+    fn execute(&mut self, kind: u32, colour: u8, payload: &[u32]) {
+        match kind {
+            0x01 if payload[0] > 0xffff => self.counters.bad_packets += 1,
+            0x01 => {
+                self.colours[1 - self.front].fill(colour);
+                self.depths.fill(payload[0] as u16);
+            }
+            0x02 => {
+                let (x0, x1) = (payload[0] & 0xffff, payload[0] >> 16);
+                let (y0, y1) = (payload[1] & 0xffff, payload[1] >> 16);
+                if x0 > x1 || x1 >= WIDTH || y0 > y1 || y1 >= HEIGHT {
+                    self.counters.bad_packets += 1;
+                } else {
+                    self.triangle(colour, [x0, x1, y0, y1], payload);
+                }
+            }
+            0x10 => {
+                self.front = 1 - self.front;
+                self.counters.frames_shown += 1;
+            }
+            _ => self.fence = payload[0],
+        }
+    }
+
+    fn triangle(&mut self, colour: u8, [x0, x1, y0, y1]: [u32; 4], payload: &[u32]) {
+        self.counters.triangles += 1;
+        let low = |word: u32| i32::from(word as i16);
+        let high = |word: u32| i32::from((word >> 16) as i16);
+        let (a0, b0, a1, b1) = (low(payload[5]), high(payload[5]), low(payload[6]), high(payload[6]));
+        let steps = [(a0, b0), (a1, b1), (-(a0 + a1), -(b0 + b1))];
+        for y in y0..=y1 {
+            for x in x0..=x1 {
+                let (right, down) = (x - x0, y - y0);
+                let sum = |start: u32, step_x: u32, step_y: u32| {
+                    start.wrapping_add(right.wrapping_mul(step_x)).wrapping_add(down.wrapping_mul(step_y)) as i32
+                };
+                let covered = (0..3).all(|i| sum(payload[2 + i], steps[i].0 as u32, steps[i].1 as u32) >= 0);
+                if !covered {
+                    continue;
+                }
+                self.counters.pixels_tested = self.counters.pixels_tested.wrapping_add(1);
+                let depth = (sum(payload[7], payload[8], payload[9]) >> 12).clamp(0, 65_535) as u16;
+                let pixel = (y * WIDTH + x) as usize;
+                if depth < self.depths[pixel] {
+                    self.counters.pixels_written = self.counters.pixels_written.wrapping_add(1);
+                    self.depths[pixel] = depth;
+                    self.colours[1 - self.front][pixel] = colour;
+                }
+            }
+        }
+    }
+
+    /// Panics unless the device holds the same pixels and depths.
+    pub fn assert_same_pictures(&self, device: &Device<'_>) {
+        // Not assert_eq: its message would be a million characters long.
+        let difference = |(name, ours, theirs): (&str, &[u8], &[u8])| {
+            let at = ours.iter().zip(theirs).position(|(ours, theirs)| ours != theirs);
+            at.map(|at| panic!("{name} differs at column {}, row {}", at % WIDTH as usize, at / WIDTH as usize))
+        };
+        difference(("front", &self.colours[self.front], device.front()));
+        difference(("back", &self.colours[1 - self.front], device.back()));
+        let at = self.depths.iter().zip(device.depth()).position(|(ours, theirs)| ours != theirs);
+        assert_eq!(at, None, "depth differs");
+    }
+}

@@ -1,0 +1,154 @@
+// Registers, packets and number formats of the contract between software and FPGA.
+// Generated from the crate fpga-regs by `cargo xtask generate`: change it there.
+`default_nettype none
+
+package halfspace_pkg;
+
+  // Sizes and formats.
+  localparam int unsigned Width = 320;  // pixels
+  localparam int unsigned Height = 240;  // pixels
+  localparam int unsigned SubpixelBits = 4;  // fraction bits of a screen coordinate
+  localparam int unsigned DepthFractionBits = 12;  // fraction bits of depth in a packet
+  localparam int unsigned DepthFar = 65535;  // far plane, and what a clear leaves
+  localparam int unsigned GuardBand = 16383;  // largest magnitude of a vertex's coordinate, sub-pixels
+  localparam int unsigned FifoApertureWords = 1024;  // address space of the FIFO agent
+
+  // Registers: byte offsets from the agent's start.
+  localparam logic [31:0] IdHalf = 32'h48414c46;  // what ID reads: "HALF"
+  localparam logic [15:0] VersionMajor = 16'd1;  // changes with incompatible changes
+  localparam logic [15:0] VersionMinor = 16'd0;  // grows with compatible additions
+  typedef enum logic [7:0] {
+    RegId = 8'h00,
+    RegVersion = 8'h04,
+    RegCapabilities = 8'h08,
+    RegScreen = 8'h0c,
+    RegControl = 8'h10,
+    RegStatus = 8'h14,
+    RegLowWater = 8'h18,
+    RegInterrupts = 8'h1c,
+    RegErrors = 8'h20,
+    RegFence = 8'h24,
+    RegTriangles = 8'h28,
+    RegPixelsTested = 8'h2c,
+    RegPixelsWritten = 8'h30,
+    RegBusyCycles = 8'h34,
+    RegStalledCycles = 8'h38,
+    RegFramesShown = 8'h3c,
+    RegBadPackets = 8'h40
+  } register_e;
+
+  // Version of the contract.
+  typedef struct packed {
+    logic [15:0] major;  // Major version; software refuses any but its own.
+    logic [15:0] minor;  // Minor version; grows with compatible additions.
+  } version_t;
+
+  // What this build has.
+  typedef struct packed {
+    logic [6:0] unused_25;
+    logic [0:0] interrupt;  // Whether the low-water interrupt is wired to the processor.
+    logic [7:0] pixel_units;  // Pixel units: pixels drawn a clock at most.
+    logic [15:0] fifo_depth;  // FIFO depth in words.
+  } capabilities_t;
+
+  // Framebuffer size.
+  typedef struct packed {
+    logic [15:0] height;  // Height in pixels.
+    logic [15:0] width;  // Width in pixels.
+  } screen_t;
+
+  // Enable, reset and interrupt enables.
+  typedef struct packed {
+    logic [19:0] unused_12;
+    logic [0:0] error_interrupt;  // Interrupt on any bit of ERRORS.
+    logic [0:0] fence_interrupt;  // Interrupt when a fence was passed.
+    logic [0:0] swap_interrupt;  // Interrupt when a swap took place.
+    logic [0:0] low_water_interrupt;  // Interrupt when the FIFO's level falls to LOW_WATER.
+    logic [5:0] unused_2;
+    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears counters, errors and interrupts; reads 1 until done. Buffers keep their pixels.
+    logic [0:0] enable;  // Takes packets from the FIFO. While 0 the FIFO fills and nothing is drawn.
+  } control_t;
+
+  // FIFO space and state.
+  typedef struct packed {
+    logic [9:0] unused_22;
+    logic [0:0] mid_packet;  // The stream stands inside a packet: its header has come, not yet all of its words.
+    logic [0:0] error;  // Some bit of ERRORS is set.
+    logic [0:0] swap_pending;  // A swap waits for the vertical blank.
+    logic [0:0] vertical_blank;  // VGA is in its vertical blank.
+    logic [0:0] front_buffer;  // The buffer that VGA shows: 0 or 1.
+    logic [0:0] busy;  // A packet is under way, or the FIFO holds words.
+    logic [15:0] fifo_free;  // Words the FIFO takes before it is full.
+  } status_t;
+
+  // Interrupt status. A bit is set whether or not CONTROL enables its interrupt.
+  typedef struct packed {
+    logic [27:0] unused_4;
+    logic [0:0] error;  // A bit of ERRORS was set.
+    logic [0:0] fence;  // A fence was passed.
+    logic [0:0] swap;  // A swap took place.
+    logic [0:0] low_water;  // The FIFO's level fell to LOW_WATER.
+  } interrupts_t;
+
+  // Error flags.
+  typedef struct packed {
+    logic [29:0] unused_2;
+    logic [0:0] fifo_overflow;  // A word came while the FIFO was full; it was dropped.
+    logic [0:0] bad_packet;  // A packet of unknown kind, wrong length, with a reserved bit set or a box outside the screen. It was skipped by its length.
+  } errors_t;
+
+  // Packets: a header and as many words as its length says.
+  typedef enum logic [7:0] {
+    KindClear = 8'h01,
+    KindFlatTriangle = 8'h02,
+    KindSwap = 8'h10,
+    KindFence = 8'h11
+  } kind_e;
+
+  localparam int unsigned ClearWords = 1;  // words behind the header
+  localparam int unsigned FlatTriangleWords = 10;  // words behind the header
+  localparam int unsigned SwapWords = 0;  // words behind the header
+  localparam int unsigned FenceWords = 1;  // words behind the header
+  localparam int unsigned PayloadWordsMax = 10;  // words behind the longest packet's header
+
+  // The word that every packet starts with.
+  typedef struct packed {
+    logic [7:0] kind;  // What the packet asks for.
+    logic [7:0] length;  // How many words follow.
+    logic [7:0] reserved;  // Zero; room for later modes.
+    logic [7:0] colour;  // RGB332 colour of a clear or a flat triangle; zero in other kinds.
+  } header_t;
+
+  localparam int unsigned ClearDepthWord = 0;  // The depth that a clear fills with.
+  // The depth that a clear fills with.
+  typedef struct packed {
+    logic [15:0] reserved;  // Zero.
+    logic [15:0] depth;  // Depth, 0 (near) to 65,535 (far).
+  } clear_depth_t;
+
+  localparam int unsigned FlatTriangleColumnsWord = 0;  // Columns of the box.
+  // Columns of the box.
+  typedef struct packed {
+    logic [15:0] last;  // Last pixel.
+    logic [15:0] first;  // First pixel.
+  } span_t;
+
+  localparam int unsigned FlatTriangleRowsWord = 1;  // Rows of the box.
+  localparam int unsigned FlatTriangleEdge0Word = 2;  // Edge 0 at the box's upper left pixel centre, signed.
+  localparam int unsigned FlatTriangleEdge1Word = 3;  // Edge 1 there.
+  localparam int unsigned FlatTriangleEdge2Word = 4;  // Edge 2 there.
+  localparam int unsigned FlatTriangleSteps0Word = 5;  // Steps of edge 0.
+  // Steps of edge 0.
+  typedef struct packed {
+    logic signed [15:0] step_y;  // B: what one row down adds.
+    logic signed [15:0] step_x;  // A: what one pixel to the right adds.
+  } edge_steps_t;
+
+  localparam int unsigned FlatTriangleSteps1Word = 6;  // Steps of edge 1; edge 2's are minus the sum of both.
+  localparam int unsigned FlatTriangleDepthWord = 7;  // Depth at the box's upper left pixel centre, signed Q20.12 modulo 2^32.
+  localparam int unsigned FlatTriangleDepthStepXWord = 8;  // Depth step of one pixel to the right.
+  localparam int unsigned FlatTriangleDepthStepYWord = 9;  // Depth step of one row down.
+  localparam int unsigned FenceTagWord = 0;  // Any 32-bit number.
+endpackage
+
+`default_nettype wire

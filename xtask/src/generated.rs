@@ -1,0 +1,62 @@
+//! The files that are written from one source and committed: the contract's reference page, its
+//! SystemVerilog package, and the plate that the firmware shows.
+
+mod plate;
+mod reference_page;
+mod rtl_package;
+
+use anyhow::Context;
+
+use crate::paths::workspace_root;
+
+/// A generated file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GeneratedFile {
+    /// Where it lies in the workspace.
+    pub path: &'static str,
+    /// What it should hold.
+    pub text: String,
+}
+
+impl GeneratedFile {
+    /// Returns whether the file on disk holds what it should.
+    pub fn is_fresh(&self) -> bool {
+        std::fs::read_to_string(workspace_root().join(self.path)).is_ok_and(|text| text == self.text)
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn write(&self) -> anyhow::Result<()> {
+        let path = workspace_root().join(self.path);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder of {}", self.path))?;
+        }
+        std::fs::write(&path, &self.text).with_context(|| format!("cannot write {}", self.path))
+    }
+}
+
+/// Returns all generated files as they should be.
+///
+/// # Errors
+/// When a file that they are made from cannot be read.
+pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
+    Ok(vec![
+        GeneratedFile { path: "docs/registers.md", text: reference_page::text() },
+        GeneratedFile { path: "rtl/halfspace_pkg.sv", text: rtl_package::text() },
+        GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn generated_files_are_fresh() {
+        for file in all().expect("the sources are there") {
+            assert!(file.is_fresh(), "{} is stale: run `cargo xtask generate` and commit it", file.path);
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The reference page of registers and packets.
+
+use std::fmt::Write as _;
+
+use fpga_regs::layout::Field;
+use fpga_regs::packet::{Header, Kind};
+use fpga_regs::registers::{Access, REGISTERS};
+use fpga_regs::screen;
+
+/// Returns the page, in Markdown.
+pub fn text() -> String {
+    let mut page = String::from(
+        "# Registers and packets\n\n\
+         Generated from `fpga-regs` by `cargo xtask generate`: change it there.\n\n\
+         All words have 32 bits. Offsets are bytes from the start of the register agent (0xFF200000 on the\n\
+         DE1-SoC); the FIFO aperture is an agent of its own.\n\n## Registers\n\n\
+         | offset | name | access | reset | holds |\n| --- | --- | --- | --- | --- |\n",
+    );
+    for register in REGISTERS {
+        let access = match register.access {
+            Access::ReadOnly => "read only",
+            Access::ReadWrite => "read, write",
+            Access::WriteOneToClear => "write 1 to clear",
+        };
+        let reset = register.reset.map_or("by build or state".to_string(), |value| format!("{value:#010x}"));
+        let _ = writeln!(
+            page,
+            "| {:#04x} | {} | {access} | {reset} | {} |",
+            register.offset,
+            register.name,
+            register.doc.trim()
+        );
+    }
+    page.push_str("\n### Fields\n\nBits that no field names read 0 and ignore what is written.\n\n");
+    page.push_str("| register | bits | field | meaning |\n| --- | --- | --- | --- |\n");
+    for register in REGISTERS {
+        for field in register.fields {
+            let _ = writeln!(page, "| {} | {} |", register.name, field_row(field));
+        }
+    }
+    packets(&mut page);
+    sizes(&mut page);
+    page
+}
+
+fn field_row(field: &Field) -> String {
+    let bits = if field.high == field.low { field.high.to_string() } else { format!("{}…{}", field.high, field.low) };
+    let sign = if field.signed { " (signed)" } else { "" };
+    format!("{bits} | {}{sign} | {}", field.name, field.doc.trim())
+}
+
+fn packets(page: &mut String) {
+    page.push_str(
+        "\n## Packets\n\nA packet is a header and as many words as it says. A header of unknown kind, with a length that is\n\
+         not its kind's or with a reserved bit set, or a box that is empty or leaves the screen, makes a bad\n\
+         packet: it is skipped by its header's length, flagged in ERRORS and counted in BAD_PACKETS.\n\n\
+         ### Header\n\n| bits | field | meaning |\n| --- | --- | --- |\n",
+    );
+    for field in Header::FIELDS {
+        let _ = writeln!(page, "| {} |", field_row(field));
+    }
+    for kind in Kind::ALL {
+        let info = kind.info();
+        let _ = write!(
+            page,
+            "\n### {} ({:#04x})\n\n{}\n\n| word | name | bits | field | meaning |\n| --- | --- | --- | --- | --- |\n",
+            info.name, *kind as u8, info.doc
+        );
+        let colour = if kind.has_colour() { " with a colour" } else { "" };
+        let _ = writeln!(page, "| 0 | header | 31…0 | {:#010x}{colour} | |", Header::of(*kind).0);
+        for (index, word) in info.words.iter().enumerate() {
+            let (index, name) = (index + 1, word.name);
+            if word.fields.is_empty() {
+                let _ = writeln!(page, "| {index} | {name} | 31…0 | | {} |", word.doc.trim());
+            }
+            for field in word.fields {
+                let _ = writeln!(page, "| {index} | {name} | {} |", field_row(field));
+            }
+        }
+    }
+    page.push_str(
+        "\n### Formats of a triangle\n\n\
+         | quantity | format | range that setup produces |\n| --- | --- | --- |\n\
+         | edge step | signed 16-bit integer | ±32,766: a difference of two coordinates in the guard band |\n\
+         | edge value at a pixel of the screen | signed integer in steps of an edge | ±2^26 |\n\
+         | depth and its steps | signed Q20.12 modulo 2^32 | any; at a covered pixel the sum is in −1…65,536 |\n\n\
+         A pixel is inside where all three edge values are 0 or more; the third edge's steps are minus the sum of\n\
+         the others'. Its depth is bits 31…12 of the sum, saturated to 0…65,535; it is drawn when that is less\n\
+         than the depth buffer holds.\n",
+    );
+}
+
+fn sizes(page: &mut String) {
+    let _ = write!(
+        page,
+        "\n## Sizes\n\n| what | value |\n| --- | --- |\n\
+         | screen | {}×{} pixels, RGB332, row 0 on top |\n\
+         | depth | 16 bits, 0 near, {} far and after a clear |\n\
+         | sub-pixel | 1/{} pixel |\n\
+         | guard band | ±{} sixteenths of a pixel |\n\
+         | FIFO aperture | {} words; {:#x} behind the registers when both are on the lightweight bridge |\n",
+        screen::WIDTH,
+        screen::HEIGHT,
+        screen::DEPTH_FAR,
+        screen::SUBPIXEL,
+        screen::GUARD_BAND,
+        screen::FIFO_APERTURE_WORDS,
+        screen::LIGHTWEIGHT_APERTURE_OFFSET,
+    );
+}
