@@ -1,0 +1,204 @@
+//! The application: reads controllers, draws frames, talks to a PC.
+
+use core::fmt::Write;
+
+use controls::serial::{Decoder, FRAME_SIZE_MAXIMUM, kind};
+use controls::{Config, Controls};
+use fpga_regs::{RenderError, Renderer, Wait};
+use geometry::MeshError;
+
+use crate::board::Board;
+use crate::frame::{FrameMemory, draw_frame};
+use crate::link::{self, BoardMessage, FrameReport, HostMessage};
+use crate::scene::{MeshMemory, Meshes, Scene};
+use crate::viewer::Viewer;
+
+/// Memory that the application works in; large, so a static.
+#[derive(Default)]
+pub struct Memory {
+    meshes: MeshMemory,
+    frame: FrameMemory,
+}
+
+impl Memory {
+    /// Empty memory, for a static.
+    pub const fn new() -> Self {
+        Self { meshes: MeshMemory::new(), frame: FrameMemory::new() }
+    }
+}
+
+/// The viewer on one board.
+pub struct Application<'a, B: Board, W> {
+    board: B,
+    renderer: Renderer<B::Port, W>,
+    meshes: Meshes<'a>,
+    frame_memory: &'a mut FrameMemory,
+    controls: Controls,
+    viewer: Viewer,
+    decoder: Decoder,
+    frame: u32,
+    /// Draws only when a PC says so.
+    stepping: bool,
+}
+
+impl<'a, B: Board, W: Wait> Application<'a, B, W> {
+    /// Returns the application on a board and its renderer, at the beginning of the first scene.
+    ///
+    /// # Errors
+    /// [`MeshError`] if a built-in mesh is malformed.
+    pub fn new(board: B, renderer: Renderer<B::Port, W>, memory: &'a mut Memory) -> Result<Self, MeshError> {
+        Ok(Self {
+            board,
+            renderer,
+            meshes: Meshes::new(&mut memory.meshes)?,
+            frame_memory: &mut memory.frame,
+            controls: Controls::new(Config::default()),
+            viewer: Viewer::new(Scene::Plate),
+            decoder: Decoder::new(),
+            frame: 0,
+            stepping: false,
+        })
+    }
+
+    /// Says on the console what runs, and on what.
+    pub fn greet(&mut self) {
+        let capabilities = self.renderer.capabilities();
+        // A console that takes nothing leaves nobody to tell.
+        let _ = writeln!(
+            self.board.console(),
+            "Halfspace {} on {}: {} pixel units, FIFO of {} words; {}",
+            env!("CARGO_PKG_VERSION"),
+            B::NAME,
+            capabilities.pixel_units(),
+            capabilities.fifo_depth(),
+            B::LACKS
+        );
+        let _ = writeln!(
+            self.board.console(),
+            "arrows tilt, Space freezes, Enter: next scene, W A S D pan, Q E turn, + - zoom, R level"
+        );
+    }
+
+    /// Takes in what controllers and the PC have said, and draws a frame unless a PC steps them.
+    ///
+    /// A frame that fails is reported and the renderer reset, so that the next one may succeed.
+    pub fn run_once(&mut self) {
+        let unreadable = self.board.poll_controllers(&mut self.controls);
+        if unreadable > 0 {
+            let _ = writeln!(self.board.console(), "{unreadable} controller reports could not be read");
+        }
+        self.poll_link();
+        if self.stepping {
+            self.board.sleep();
+        } else {
+            if let Err(error) = self.draw() {
+                self.recover(error);
+            }
+            self.board.pace();
+        }
+    }
+
+    /// Draws the next frame from what the controllers have said.
+    ///
+    /// # Errors
+    /// [`RenderError`] of the renderer, which then wants a reset.
+    pub fn draw(&mut self) -> Result<FrameReport, RenderError> {
+        let state = self.controls.state();
+        let before = self.viewer.scene();
+        self.viewer.update(&state);
+        self.controls.end_frame();
+        let scene = self.viewer.scene();
+        if scene != before {
+            let _ = writeln!(self.board.console(), "scene: {}", scene.name());
+        }
+        let view = self.viewer.view(&state);
+        let Self { board, renderer, meshes, frame_memory, .. } = self;
+        let report = draw_frame((meshes, scene), &view, frame_memory, renderer, || board.ticks())?;
+        let checksum = if self.stepping { self.board.picture_checksum(self.renderer.port()) } else { None };
+        let report = FrameReport { index: self.frame, checksum, ..report };
+        self.frame = self.frame.wrapping_add(1);
+        self.board.heartbeat(self.frame);
+        Ok(report)
+    }
+
+    /// Handles one message of a PC.
+    pub fn handle(&mut self, message: HostMessage) {
+        match message {
+            HostMessage::Identify => {
+                let (ticks_per_second, scenes) = (B::TICKS_PER_SECOND, Scene::ALL.len() as u8);
+                self.send(&BoardMessage::Hello { ticks_per_second, scenes });
+            }
+            HostMessage::Begin { scene } => {
+                self.controls = Controls::new(Config::default());
+                self.viewer = Viewer::new(Scene::from_index(scene.into()));
+                self.frame = 0;
+                self.stepping = true;
+                self.send(&BoardMessage::Begun { scene: self.viewer.scene().index() as u8 });
+            }
+            HostMessage::Step => match self.draw() {
+                Ok(report) => self.send(&BoardMessage::Frame(report)),
+                Err(error) => {
+                    self.recover(error);
+                    self.send(&BoardMessage::Failed);
+                }
+            },
+            HostMessage::Run => self.stepping = false,
+        }
+    }
+
+    /// Returns the board.
+    pub fn board(&mut self) -> &mut B {
+        &mut self.board
+    }
+
+    fn poll_link(&mut self) {
+        let mut bytes = [0; 64];
+        loop {
+            let count = self.board.read_link(&mut bytes).min(bytes.len());
+            if count == 0 {
+                return;
+            }
+            for byte in &bytes[..count] {
+                self.link_byte(*byte);
+            }
+        }
+    }
+
+    fn link_byte(&mut self, byte: u8) {
+        let message = match self.decoder.feed(byte) {
+            None => return,
+            Some(Ok(frame)) if frame.kind < kind::APPLICATION => {
+                if let Err(error) = self.controls.accept_frame(frame.kind, frame.payload) {
+                    let _ = writeln!(self.board.console(), "link: {error}");
+                }
+                return;
+            }
+            Some(Ok(frame)) if frame.kind == link::HOST_MESSAGE => link::decode(frame.payload),
+            Some(Ok(_)) => None,
+            Some(Err(error)) => {
+                let _ = writeln!(self.board.console(), "link: {error}");
+                return;
+            }
+        };
+        match message {
+            Some(message) => self.handle(message),
+            None => {
+                let _ = writeln!(self.board.console(), "link: a message that this version does not know");
+            }
+        }
+    }
+
+    fn send(&mut self, message: &BoardMessage) {
+        let mut buffer = [0; FRAME_SIZE_MAXIMUM];
+        if let Ok(bytes) = link::encode(link::BOARD_MESSAGE, message, &mut buffer) {
+            self.board.write_link(bytes);
+        }
+    }
+
+    fn recover(&mut self, error: RenderError) {
+        let _ = writeln!(self.board.console(), "renderer: {error}");
+        if let Err(error) = self.renderer.reset() {
+            let _ = writeln!(self.board.console(), "renderer: {error}");
+        }
+    }
+}

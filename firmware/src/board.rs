@@ -1,0 +1,48 @@
+//! What the application asks of a board.
+
+use core::fmt::Write;
+
+use controls::Controls;
+use fpga_regs::Port;
+
+/// A board, beside its renderer's port: a clock, a console, controllers, a line to a PC.
+pub trait Board {
+    /// The board's name, as in `--board`.
+    const NAME: &'static str;
+    /// What the board lacks of the product, for the banner.
+    const LACKS: &'static str;
+    /// Ticks of [`ticks`](Board::ticks) in a second.
+    const TICKS_PER_SECOND: u32;
+    /// Text for a person.
+    type Console: Write;
+    /// The FPGA.
+    type Port: Port;
+
+    /// Returns the time since start, in ticks.
+    fn ticks(&self) -> u64;
+
+    /// Returns the console.
+    fn console(&mut self) -> &mut Self::Console;
+
+    /// Hands the board's own controllers' new reports to `controls`: a keyboard on PS/2 or USB,
+    /// a pad. Returns how many could not be read.
+    fn poll_controllers(&mut self, controls: &mut Controls) -> u32;
+
+    /// Reads bytes that a PC sent into `buffer` and returns how many; 0 when there are none.
+    fn read_link(&mut self, buffer: &mut [u8]) -> usize;
+
+    /// Sends bytes to the PC, as many as go in a bounded time.
+    fn write_link(&mut self, bytes: &[u8]);
+
+    /// Returns the CRC-32 of the picture that shows, where the processor can see it.
+    fn picture_checksum(&mut self, port: &mut Self::Port) -> Option<u32>;
+
+    /// Waits until the next frame is due, where showing one does not wait by itself.
+    fn pace(&mut self);
+
+    /// Shows a sign of life; called once a frame.
+    fn heartbeat(&mut self, frame: u32);
+
+    /// Sleeps until something may have happened.
+    fn sleep(&mut self);
+}

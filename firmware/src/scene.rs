@@ -1,0 +1,127 @@
+//! What there is to look at.
+
+use fixed::types::I4F28;
+use geometry::{Culling, Face, Mesh, MeshError, Winding, mesh::Position, shapes};
+
+mod plate;
+
+/// Rings and sides of the torus: 2,048 vertices and 4,096 triangles.
+const TORUS_RINGS: u32 = 64;
+const TORUS_SIDES: u32 = 32;
+const TORUS_VERTICES: usize = (TORUS_RINGS * TORUS_SIDES) as usize;
+/// Distance of the torus's tube from its axis.
+pub const TORUS_RADIUS: I4F28 = I4F28::lit("1");
+/// Radius of the tube.
+pub const TORUS_TUBE: I4F28 = I4F28::lit("0.45");
+
+/// Vertices of the largest scene.
+pub const MAX_VERTICES: usize = TORUS_VERTICES;
+
+/// A scene of the viewer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scene {
+    /// The plate, tilted by the controller.
+    Plate,
+    /// A closed mesh of 4,096 triangles, turning.
+    Torus,
+    /// The same mesh from inside its tube: all around the eye, faces cross the near plane.
+    Tunnel,
+}
+
+impl Scene {
+    /// All scenes, in the order in which Start goes through them.
+    pub const ALL: &'static [Scene] = &[Scene::Plate, Scene::Torus, Scene::Tunnel];
+
+    /// Returns the scene's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Scene::Plate => "plate",
+            Scene::Torus => "torus",
+            Scene::Tunnel => "tunnel",
+        }
+    }
+
+    /// Returns the scene of a number, the last one if it is too large.
+    pub fn from_index(index: usize) -> Self {
+        Self::ALL.get(index).copied().unwrap_or(Scene::Tunnel)
+    }
+
+    /// Returns the scene's number.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Returns which faces the scene draws: the tunnel's are seen from their back.
+    pub fn culling(self) -> Culling {
+        match self {
+            Scene::Plate | Scene::Torus => Culling::BackFaces,
+            Scene::Tunnel => Culling::None,
+        }
+    }
+}
+
+/// Room for the meshes that are made at start.
+pub struct MeshMemory {
+    positions: [Position; TORUS_VERTICES],
+    faces: [Face; 2 * TORUS_VERTICES],
+}
+
+impl MeshMemory {
+    /// Empty memory, for a static.
+    pub const fn new() -> Self {
+        Self {
+            positions: [[I4F28::ZERO; 3]; TORUS_VERTICES],
+            faces: [Face { corners: [0; 3], normal: [0; 3], colour: [0; 3] }; 2 * TORUS_VERTICES],
+        }
+    }
+}
+
+impl Default for MeshMemory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The scenes' meshes.
+#[derive(Debug, Clone, Copy)]
+pub struct Meshes<'a> {
+    plate: Mesh<'a>,
+    torus: Mesh<'a>,
+}
+
+impl<'a> Meshes<'a> {
+    /// Makes the meshes that are not constants, in `memory`.
+    ///
+    /// # Errors
+    /// [`MeshError`] if a mesh is malformed, which a test rules out for those built in.
+    pub fn new(memory: &'a mut MeshMemory) -> Result<Self, MeshError> {
+        let made = shapes::torus(
+            (TORUS_RINGS, TORUS_SIDES),
+            (TORUS_RADIUS, TORUS_TUBE),
+            torus_colour,
+            &mut memory.positions,
+            &mut memory.faces,
+        );
+        // The memory is as large as the torus, so it is always made.
+        let (positions, faces) = made.unwrap_or((&[], &[]));
+        Ok(Self {
+            plate: Mesh::new(&plate::POSITIONS, &plate::FACES, Winding::Clockwise)?,
+            torus: Mesh::new(positions, faces, Winding::CounterClockwise)?,
+        })
+    }
+
+    /// Returns a scene's mesh.
+    pub fn of(&self, scene: Scene) -> &Mesh<'a> {
+        match scene {
+            Scene::Plate => &self.plate,
+            Scene::Torus | Scene::Tunnel => &self.torus,
+        }
+    }
+}
+
+/// Four bright stripes that wind round the tube, chequered.
+fn torus_colour(ring: u32, side: u32) -> [u8; 3] {
+    const STRIPES: [[u8; 3]; 4] = [[255, 90, 60], [255, 210, 70], [70, 200, 130], [80, 130, 255]];
+    let stripe = STRIPES[((ring / 4 + side / 8) % 4) as usize];
+    if (ring / 2 + side / 4).is_multiple_of(2) { stripe } else { stripe.map(|channel| channel - channel / 4) }
+}

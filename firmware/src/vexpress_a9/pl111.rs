@@ -1,0 +1,137 @@
+//! The display: a PL111 with two frames (ARM DDI 0293).
+
+use crate::cortex_a9::global_timer::GlobalTimer;
+use crate::mmio::{Register, Registers};
+use core::ptr::NonNull;
+
+/// Pixels in a row.
+pub const WIDTH: usize = 640;
+/// Rows in a frame.
+pub const HEIGHT: usize = 480;
+/// Pixels in a frame.
+pub const FRAME_PIXELS: usize = WIDTH * HEIGHT;
+
+/// How long a vertical blank is waited for: three frames at 60 Hz.
+const BLANK_MICROSECONDS: u32 = 50_000;
+
+/// The base address was taken over, which happens at the vertical blank.
+const STATUS_NEXT_BASE: u32 = 1 << 2;
+/// On, 24 bits in 32, a TFT panel, power on. BGR puts red into bits 23 to 16.
+const CONTROL: u32 = 1 << 0 | 0b101 << 1 | 1 << 5 | 1 << 8 | 1 << 11;
+/// 640 pixels a row, 96 clocks of synchronisation, 16 in front and 48 behind.
+const TIMING_0: u32 = (640 / 16 - 1) << 2 | 95 << 8 | 15 << 16 | 47 << 24;
+/// 480 rows, 2 rows of synchronisation, 9 in front and 32 behind.
+const TIMING_1: u32 = 479 | 1 << 10 | 9 << 16 | 32 << 24;
+/// 640 clocks a row, synchronisation active low, divider bypassed.
+const TIMING_2: u32 = 0x067F_1800;
+
+#[derive(Clone, Copy)]
+enum Offset {
+    Timing0 = 0x00,
+    Timing1 = 0x04,
+    Timing2 = 0x08,
+    UpperBase = 0x10,
+    Control = 0x18,
+    InterruptMask = 0x1C,
+    RawStatus = 0x20,
+    InterruptClear = 0x28,
+}
+
+impl Register for Offset {
+    fn offset(self) -> usize {
+        self as usize
+    }
+}
+
+/// The display did not take a new frame: no vertical blank came.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NoVerticalBlank;
+
+impl core::fmt::Display for NoVerticalBlank {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.write_str("the display gave no vertical blank within 50 ms")
+    }
+}
+
+impl core::error::Error for NoVerticalBlank {}
+
+/// A display of 640 × 480 pixels, each 0x00RRGGBB. One frame shows while the other is drawn.
+pub struct Display {
+    registers: Registers<Offset>,
+    frames: [NonNull<[u32; FRAME_PIXELS]>; 2],
+    back: usize,
+}
+
+// SAFETY: the display owns its frames and its device.
+unsafe impl Send for Display {}
+
+impl Display {
+    /// Clears both frames and turns the display on.
+    ///
+    /// # Safety
+    /// - A PL111 answers at `address`, and no other driver writes to it.
+    /// - At each of `frames`, a frame's worth of RAM lies that nothing else uses, mapped so that
+    ///   the PL111 sees what is stored there.
+    ///
+    /// # Panics
+    /// When a frame is at address 0.
+    #[must_use]
+    pub unsafe fn new(address: usize, frames: [usize; 2]) -> Self {
+        let frames = frames.map(|frame| {
+            let frame: *mut [u32; FRAME_PIXELS] = core::ptr::with_exposed_provenance_mut(frame);
+            let frame = NonNull::new(frame).expect("a frame is not at address 0");
+            // SAFETY: the caller gives RAM of that size; all-zero words are pixels.
+            unsafe { frame.write_bytes(0, 1) };
+            frame
+        });
+        // SAFETY: the caller's promise is the same.
+        let registers = unsafe { Registers::at(address) };
+        let display = Self { registers, frames, back: 1 };
+        registers.write(Offset::Control, 0);
+        registers.write(Offset::InterruptMask, 0);
+        registers.write(Offset::Timing0, TIMING_0);
+        registers.write(Offset::Timing1, TIMING_1);
+        registers.write(Offset::Timing2, TIMING_2);
+        display.set_base(0);
+        registers.write(Offset::Control, CONTROL);
+        display
+    }
+
+    /// Returns the frame that does not show, row by row from the top: pixel (x, y) is at
+    /// `y * WIDTH + x`. It holds what was drawn two frames ago.
+    pub fn back(&mut self) -> &mut [u32; FRAME_PIXELS] {
+        // SAFETY: `new`'s caller gave the frame to this display alone, it is all pixels, and the
+        // borrow of `self` keeps a second reference away.
+        unsafe { self.frames[self.back].as_mut() }
+    }
+
+    /// Shows the back frame from the next vertical blank on, and waits for that, so that the
+    /// frame that becomes the back one is no longer read.
+    ///
+    /// # Errors
+    /// [`NoVerticalBlank`] after 50 ms. The frames have changed places all the same.
+    pub fn present(&mut self, timer: GlobalTimer) -> Result<(), NoVerticalBlank> {
+        self.registers.write(Offset::InterruptClear, STATUS_NEXT_BASE);
+        self.present_without_wait();
+        if timer.wait(BLANK_MICROSECONDS, || self.blank_passed()) { Ok(()) } else { Err(NoVerticalBlank) }
+    }
+
+    /// Shows the back frame from the next vertical blank on, without waiting for it: what is
+    /// drawn until then may show.
+    pub fn present_without_wait(&mut self) {
+        // The pixels are Normal memory, the register is Device memory: order the two.
+        core::sync::atomic::fence(core::sync::atomic::Ordering::SeqCst);
+        self.set_base(self.back);
+        self.back = 1 - self.back;
+    }
+
+    /// Returns whether a vertical blank came since the last [`present`](Self::present) began.
+    #[must_use]
+    pub fn blank_passed(&self) -> bool {
+        self.registers.read(Offset::RawStatus) & STATUS_NEXT_BASE != 0
+    }
+
+    fn set_base(&self, frame: usize) {
+        self.registers.write(Offset::UpperBase, self.frames[frame].addr().get() as u32);
+    }
+}

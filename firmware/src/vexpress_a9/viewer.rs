@@ -1,0 +1,139 @@
+//! The board as the application wants it.
+
+use controls::Controls;
+use embedded_hal::delay::DelayNs;
+use embedded_hal::digital::OutputPin;
+use embedded_io::{Read, ReadReady, Write};
+use fpga_regs::{RenderError, Renderer, Timeouts, Wait};
+
+use super::model_port::{ModelMemory, ModelPort};
+use super::pl011::{Console, Link};
+use super::pl050::Keyboard;
+use super::{Board as Drivers, leds::Led};
+use crate::app::{Application, Memory};
+use crate::board::Board;
+use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
+use crate::cortex_a9::sleep::sleep_unless;
+
+/// A frame of the FPGA's VGA output: 800 × 525 pixels at 25.175 MHz.
+const FRAME_MICROSECONDS: u64 = 16_683;
+/// Frames between two lines in the log.
+const FRAMES_A_LOG_LINE: u32 = 60;
+
+/// The board, without its display, which the FPGA's stand-in has.
+pub struct ViewerBoard {
+    console: Console,
+    link: Link,
+    keyboard: Keyboard,
+    clock: GlobalTimer,
+    delay: Delay,
+    heartbeat: Led,
+    next_frame: u64,
+}
+
+/// Returns the application on this board.
+///
+/// # Errors
+/// A text that names what did not start.
+pub fn application(
+    drivers: Drivers,
+    model_memory: &'static mut ModelMemory,
+    memory: &'static mut Memory,
+) -> Result<Application<'static, ViewerBoard, DelayWait>, StartError> {
+    let Drivers { console, link, keyboard, display, clock, delay, leds: [heartbeat, ..], .. } = drivers;
+    let port = ModelPort::new(model_memory, display).map_err(StartError::Model)?;
+    let renderer =
+        Renderer::new(port, DelayWait(Delay::new(clock)), Timeouts::default()).map_err(StartError::Renderer)?;
+    let board = ViewerBoard { console, link, keyboard, clock, delay, heartbeat, next_frame: 0 };
+    Application::new(board, renderer, memory).map_err(StartError::Mesh)
+}
+
+/// Why the application did not start.
+#[derive(Debug)]
+pub enum StartError {
+    /// The software model did not take its memory.
+    Model(raster_model::SizeError),
+    /// The renderer did not find its device as it should be.
+    Renderer(RenderError),
+    /// A built-in mesh is malformed.
+    Mesh(geometry::MeshError),
+}
+
+impl core::fmt::Display for StartError {
+    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Model(error) => error.fmt(out),
+            Self::Renderer(error) => error.fmt(out),
+            Self::Mesh(error) => error.fmt(out),
+        }
+    }
+}
+
+/// Waits by the clock: the model has no interrupt.
+pub struct DelayWait(Delay);
+
+impl Wait for DelayWait {
+    const INTERRUPT: bool = false;
+
+    fn wait(&mut self, micros: u32) -> u32 {
+        self.0.delay_us(micros);
+        micros
+    }
+}
+
+impl Board for ViewerBoard {
+    const NAME: &'static str = "vexpress-a9";
+    const LACKS: &'static str = "no FPGA here, the software model draws; no USB, the keyboard is PS/2";
+    const TICKS_PER_SECOND: u32 = super::memory_map::CLUSTER.timer_hertz;
+    type Console = Console;
+    type Port = ModelPort;
+
+    fn ticks(&self) -> u64 {
+        self.clock.ticks()
+    }
+
+    fn console(&mut self) -> &mut Console {
+        &mut self.console
+    }
+
+    fn poll_controllers(&mut self, controls: &mut Controls) -> u32 {
+        let mut unreadable = 0;
+        while let Some(report) = self.keyboard.poll() {
+            unreadable += u32::from(controls.accept_keyboard(&report).is_err());
+        }
+        unreadable
+    }
+
+    fn read_link(&mut self, buffer: &mut [u8]) -> usize {
+        self.link.read(buffer).unwrap_or(0)
+    }
+
+    fn write_link(&mut self, bytes: &[u8]) {
+        if let Err(error) = self.link.write_all(bytes) {
+            defmt::error!("link: {}", defmt::Display2Format(&error));
+        }
+    }
+
+    fn picture_checksum(&mut self, port: &mut ModelPort) -> Option<u32> {
+        Some(port.checksum())
+    }
+
+    fn pace(&mut self) {
+        let now = self.clock.microseconds();
+        if let Some(early) = self.next_frame.checked_sub(now) {
+            self.delay.delay_us(early.min(FRAME_MICROSECONDS) as u32);
+        }
+        self.next_frame = now.max(self.next_frame) + FRAME_MICROSECONDS;
+    }
+
+    fn heartbeat(&mut self, frame: u32) {
+        let _ = self.heartbeat.set_state((frame & 16 != 0).into());
+        if frame.is_multiple_of(FRAMES_A_LOG_LINE) {
+            defmt::info!("{=u32} frames", frame);
+        }
+    }
+
+    fn sleep(&mut self) {
+        sleep_unless(|| self.link.read_ready().unwrap_or(false));
+    }
+}
