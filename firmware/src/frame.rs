@@ -1,9 +1,11 @@
 //! One frame: a scene's mesh to packets, and these to the FPGA.
 
+use core::ops::ControlFlow;
+
 use fpga_regs::packet::{Clear, FlatTriangle};
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
-use geometry::{DrawError, FaceLight, ScreenTransform, ScreenVertex, Sink, Transformed};
+use geometry::{FaceLight, ScreenTransform, ScreenVertex, Sink, Transformed};
 
 use crate::link::FrameReport;
 use crate::scene::{MAX_VERTICES, Meshes, Scene};
@@ -52,21 +54,17 @@ pub fn draw_frame<P: Port, W: Wait>(
     let mesh = meshes.of(scene);
     let start = ticks();
     let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let transformed = match Transformed::new(mesh, &transform, &mut memory.vertices) {
-        Ok(transformed) => transformed,
-        Err(error) => return render_error(error).map(|()| FrameReport::default()),
+    let Ok(transformed) = Transformed::new(mesh, &transform, &mut memory.vertices) else {
+        // The cache is as large as the largest scene's mesh.
+        return Ok(FrameReport::default());
     };
     let vertices_done = ticks();
     let light = FaceLight::new(&view.light, &view.model);
-    let mut writer = PacketWriter { buffer: &mut memory.words, used: 0, renderer, ticks: &mut ticks, pushing: 0 };
-    let drawn = transformed.draw(&light, scene.culling(), &mut writer);
-    let pushing_inside = writer.pushing;
+    let mut writer = PacketWriter::new(&mut memory.words, renderer, &mut ticks);
+    let statistics = transformed.draw(&light, scene.culling(), &mut writer);
     let faces_done = (writer.ticks)();
-    writer.flush()?;
-    let statistics = match drawn {
-        Ok(statistics) => statistics,
-        Err(error) => return render_error(error).map(|()| FrameReport::default()),
-    };
+    let pushing = writer.pushing;
+    writer.finish()?;
 
     renderer.swap()?;
     let fence = renderer.fence()?;
@@ -81,17 +79,9 @@ pub fn draw_frame<P: Port, W: Wait>(
         packets: statistics.drawn + 3,
         words: (renderer.words_pushed() - words_before) as u32,
         vertex_ticks: (vertices_done - start) as u32,
-        face_ticks: (faces_done - vertices_done - pushing_inside) as u32,
+        face_ticks: (faces_done - vertices_done - pushing) as u32,
         checksum: None,
     })
-}
-
-/// The cache is as large as the largest scene's mesh, so what is left is the renderer's error.
-fn render_error(error: DrawError<RenderError>) -> Result<(), RenderError> {
-    match error {
-        DrawError::Sink(error) => Err(error),
-        DrawError::CacheTooSmall { .. } => Ok(()),
-    }
 }
 
 /// Gathers packets and pushes them in long bursts.
@@ -100,33 +90,42 @@ struct PacketWriter<'a, P, W, T> {
     used: usize,
     renderer: &'a mut Renderer<P, W>,
     ticks: &'a mut T,
-    /// Ticks spent pushing.
+    /// Ticks spent pushing in the midst of a mesh.
     pushing: u64,
+    error: Option<RenderError>,
 }
 
-impl<P: Port, W: Wait, T: FnMut() -> u64> PacketWriter<'_, P, W, T> {
-    fn flush(&mut self) -> Result<(), RenderError> {
-        let words = &self.buffer[..self.used];
-        self.used = 0;
-        self.renderer.push(words)
+impl<'a, P: Port, W: Wait, T: FnMut() -> u64> PacketWriter<'a, P, W, T> {
+    fn new(buffer: &'a mut [u32; BUFFER_WORDS], renderer: &'a mut Renderer<P, W>, ticks: &'a mut T) -> Self {
+        Self { buffer, used: 0, renderer, ticks, pushing: 0, error: None }
     }
 
-    /// Pushes what is there in the midst of a mesh.
+    /// Pushes what is left.
+    fn finish(mut self) -> Result<(), RenderError> {
+        self.push();
+        self.error.map_or(Ok(()), Err)
+    }
+
+    fn push(&mut self) {
+        if self.error.is_none() {
+            self.error = self.renderer.push(&self.buffer[..self.used]).err();
+        }
+        self.used = 0;
+    }
+
     #[cold]
     #[inline(never)]
-    fn make_room(&mut self) -> Result<(), RenderError> {
+    fn make_room(&mut self) -> ControlFlow<()> {
         let start = (self.ticks)();
-        let result = self.flush();
+        self.push();
         self.pushing += (self.ticks)() - start;
-        result
+        if self.error.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
 impl<P: Port, W: Wait, T: FnMut() -> u64> Sink for PacketWriter<'_, P, W, T> {
-    type Error = RenderError;
-
     #[inline(always)]
-    fn triangle(&mut self, triangle: &FlatTriangle, _: [&ScreenVertex; 3], _: [u8; 3]) -> Result<(), RenderError> {
+    fn triangle(&mut self, triangle: &FlatTriangle, _: [&ScreenVertex; 3], _: [u8; 3]) -> ControlFlow<()> {
         if self.used > BUFFER_WORDS - FlatTriangle::WORDS {
             self.make_room()?;
         }
@@ -134,6 +133,6 @@ impl<P: Port, W: Wait, T: FnMut() -> u64> Sink for PacketWriter<'_, P, W, T> {
             *room = triangle.encode();
             self.used += FlatTriangle::WORDS;
         }
-        Ok(())
+        ControlFlow::Continue(())
     }
 }

@@ -339,6 +339,13 @@ impl FlatTriangle {
         ]
     }
 
+    /// Returns the triangle in another colour.
+    #[must_use]
+    #[inline(always)]
+    pub const fn with_colour(self, colour: Rgb332) -> Self {
+        Self { colour, ..self }
+    }
+
     /// Returns the steps in x and in y of all three edges.
     ///
     /// The third pair needs 17 bits when the words do not come from setup.

@@ -6,7 +6,7 @@
 use crate::transform::{Homogeneous, SMALLEST_W};
 
 /// Planes that a triangle may cross.
-const PLANES: usize = 7;
+pub(crate) const PLANES: usize = 7;
 /// Corners of a triangle after each plane has added one.
 pub const MAX_CORNERS: usize = 3 + PLANES;
 
@@ -38,16 +38,18 @@ impl Polygon {
 }
 
 /// Signed distance of a vertex to a plane, positive inside, scaled by the plane's own factor.
-fn distance(vertex: &Homogeneous, plane: usize) -> i64 {
-    let (w, guard) = (i64::from(vertex.w), i64::from(vertex.guard_band()));
+/// Planes: 0 w, 1 near, 2 far, 3 right, 4 left, 5 bottom, 6 top of the guard band.
+pub(crate) fn distance(vertex: &Homogeneous, plane: usize) -> i64 {
+    let (w, guard) = (i64::from(vertex.w), i64::from(vertex.doubled_guard_band()));
+    let doubled = |value: i32| 2 * i64::from(value);
     match plane {
         0 => w - i64::from(SMALLEST_W),
         1 => i64::from(vertex.z),
-        2 => w - i64::from(vertex.z),
-        3 => guard - i64::from(vertex.x),
-        4 => guard + i64::from(vertex.x),
-        5 => guard - i64::from(vertex.y),
-        _ => guard + i64::from(vertex.y),
+        2 => w - doubled(vertex.z),
+        3 => guard - doubled(vertex.x),
+        4 => guard + doubled(vertex.x),
+        5 => guard - doubled(vertex.y),
+        _ => guard + doubled(vertex.y),
     }
 }
 

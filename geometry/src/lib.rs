@@ -39,6 +39,6 @@ pub use angle::Angle;
 pub use light::{DirectionalLight, FaceLight};
 pub use matrix::{Matrix, Vector};
 pub use mesh::{Face, Mesh, MeshError, Winding};
-pub use pipeline::{Culling, DrawError, DrawStatistics, Sink, Transformed, draw};
+pub use pipeline::{CacheTooSmall, Culling, DrawStatistics, Sink, Transformed, draw};
 pub use setup::ScreenVertex;
 pub use transform::ScreenTransform;

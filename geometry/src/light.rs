@@ -67,6 +67,7 @@ impl FaceLight {
     #[inline(always)]
     pub fn shade(&self, normal: [i16; 3], colour: [u8; 3]) -> [u8; 3] {
         let intensity = self.intensity(normal);
+        // At most (255 · 256 + 128) / 256, so it is a byte.
         colour.map(|channel| ((u32::from(channel) * intensity + 128) >> 8) as u8)
     }
 }

@@ -7,25 +7,30 @@ const ENTRIES: usize = 1 << INDEX_BITS;
 /// 2⁶² over the middle of each entry's interval, made at compile time.
 static SEED: [u32; ENTRIES] = seeds();
 
-/// Returns 2⁶²/`divisor` for a normalised divisor, 2³¹ ≤ `divisor` < 2³².
+/// Returns 2⁶¹/`divisor` for a normalised divisor, 2³¹ ≤ `divisor` < 2³².
 ///
-/// The result is in 2³⁰…2³¹ − 1, within a relative 10⁻⁶ of the exact one: a table of 512 seeds,
+/// The result is in 2²⁹…2³⁰, within a relative 10⁻⁶ of the exact one: a table of 512 seeds,
 /// each within 2⁻¹⁰ (half an interval), and one Newton step, which squares the error. A divisor
 /// that is not normalised gives a meaningless result, no panic.
 #[inline(always)]
 pub fn reciprocal(divisor: u32) -> i32 {
     let seed = SEED[(divisor >> (31 - INDEX_BITS)) as usize & (ENTRIES - 1)];
     // 2³⁰·(1 + e), where e is the seed's relative error.
-    let product = high(divisor, seed);
-    // seed·(1 − e); shifted by one less than would be exact, as 1 − e may be above one.
-    let corrected = high(seed, ((1 << 31) - product) << 1);
-    (corrected << 1).min(i32::MAX as u32) as i32
+    let product = high_unsigned(divisor, seed);
+    // seed·(1 − e); the second factor is 2³² − 2·product = 2³¹·(1 − e).
+    high_unsigned(seed, 0u32.wrapping_sub(product << 1)) as i32
 }
 
-/// The upper half of a 64-bit product.
+/// The upper half of a 64-bit product, unsigned.
 #[inline(always)]
-fn high(a: u32, b: u32) -> u32 {
+fn high_unsigned(a: u32, b: u32) -> u32 {
     ((u64::from(a) * u64::from(b)) >> 32) as u32
+}
+
+/// Returns the upper half of a 64-bit product, floored: one instruction on the Cortex-A9.
+#[inline(always)]
+pub(crate) fn high(a: i32, b: i32) -> i32 {
+    ((i64::from(a) * i64::from(b)) >> 32) as i32
 }
 
 const fn seeds() -> [u32; ENTRIES] {
@@ -44,7 +49,7 @@ mod tests {
     use super::*;
 
     fn relative_error(divisor: u32) -> f64 {
-        let exact = 2.0f64.powi(62) / f64::from(divisor);
+        let exact = 2.0f64.powi(61) / f64::from(divisor);
         (f64::from(reciprocal(divisor)) - exact).abs() / exact
     }
 
@@ -63,7 +68,7 @@ mod tests {
 
     #[test]
     fn a_divisor_that_is_not_normalised_does_not_panic() {
-        for divisor in [0, 1, 255, 1 << 30, u32::MAX >> 1] {
+        for divisor in [0, 1, 255, 1 << 29, 1 << 30, i32::MAX as u32] {
             reciprocal(divisor);
         }
     }

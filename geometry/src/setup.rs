@@ -6,7 +6,7 @@
 use fpga_regs::packet::{EdgeSteps, FlatTriangle, Span};
 use fpga_regs::screen::{DEPTH_FRACTION_BITS, HEIGHT, PacketDepth, Rgb332, SUBPIXEL, SUBPIXEL_BITS, WIDTH};
 
-use crate::reciprocal::reciprocal;
+use crate::reciprocal::{high, reciprocal};
 
 /// A vertex on the screen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,13 +18,9 @@ pub struct ScreenVertex {
     pub y: i32,
     /// 0 (near) to 65,535 (far).
     pub depth: i32,
-    /// Not 0 if the vertex has to be clipped; the other fields then mean nothing.
+    /// Not 0 if the vertex has to be clipped: a bit for each plane it is outside of. The other
+    /// fields then mean nothing.
     pub outside: u32,
-}
-
-impl ScreenVertex {
-    /// A vertex that has to be clipped.
-    pub const OUTSIDE: Self = Self { x: 0, y: 0, depth: 0, outside: 1 };
 }
 
 /// Returns twice the signed area of a triangle, in 1/256 of a pixel's area: positive when its
@@ -37,11 +33,16 @@ pub fn doubled_area([a, b, c]: [&ScreenVertex; 3]) -> i32 {
     (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
 }
 
-/// First and last pixel whose centre lies in `low`…`high` (sixteenths of a pixel), cut to the screen.
+/// First pixel whose centre is at `low` (sixteenths of a pixel) or after, cut to the screen.
 #[inline(always)]
-fn span(low: i32, high: i32, size: u32) -> (i32, i32) {
-    let half = SUBPIXEL / 2;
-    (((low - half + SUBPIXEL - 1) >> SUBPIXEL_BITS).max(0), ((high - half) >> SUBPIXEL_BITS).min(size as i32 - 1))
+fn first_pixel(low: i32) -> i32 {
+    ((low + SUBPIXEL / 2 - 1) >> SUBPIXEL_BITS).max(0)
+}
+
+/// Last pixel whose centre is at `high` or before, cut to a screen of `size` pixels.
+#[inline(always)]
+fn last_pixel(high: i32, size: u32) -> i32 {
+    ((high - SUBPIXEL / 2) >> SUBPIXEL_BITS).min(size as i32 - 1)
 }
 
 /// An edge's value for the packet: top-left rule folded in, then in steps of a pixel.
@@ -58,12 +59,15 @@ fn edge_value(value: i32, step_x: i32, step_y: i32) -> i32 {
 }
 
 /// Sets up a triangle whose corners go counter-clockwise on screen, `area` being its
-/// [`doubled_area`], below 0. Returns `None` when no pixel centre lies in its box on the screen.
+/// [`doubled_area`], below 0. It comes out black. Returns `None` when no pixel centre lies in its
+/// box on the screen.
 #[inline(always)]
-pub fn set_up([a, b, c]: [&ScreenVertex; 3], area: i32, colour: impl FnOnce() -> Rgb332) -> Option<FlatTriangle> {
+pub fn set_up([a, b, c]: [&ScreenVertex; 3], area: i32) -> Option<FlatTriangle> {
     debug_assert!(area < 0);
-    let (x_first, x_last) = span(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), WIDTH);
-    let (y_first, y_last) = span(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), HEIGHT);
+    let (x_low, x_high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+    let (y_low, y_high) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+    let (x_first, x_last) = (first_pixel(x_low), last_pixel(x_high, WIDTH));
+    let (y_first, y_last) = (first_pixel(y_low), last_pixel(y_high, HEIGHT));
     if x_first > x_last || y_first > y_last {
         return None;
     }
@@ -75,62 +79,89 @@ pub fn set_up([a, b, c]: [&ScreenVertex; 3], area: i32, colour: impl FnOnce() ->
     let ab = dy1 * qx - dx1 * qy;
     let ca = dx2 * qy - dy2 * qx;
     let bc = -area - ab - ca;
-    let plane = depth_plane(a.depth, (dx1, dy1, b.depth - a.depth), (dx2, dy2, c.depth - a.depth), -area, (qx, qy));
+    let plane = DepthPlane {
+        start: (a.depth << DEPTH_FRACTION_BITS) + (1 << (DEPTH_FRACTION_BITS - 1)),
+        first: (dx1, dy1, b.depth - a.depth),
+        second: (dx2, dy2, c.depth - a.depth),
+        area: -area,
+        to_pixel: (qx, qy),
+    };
+    let is_small = (x_high - x_low) | (y_high - y_low) < SMALL;
+    let (depth, depth_step_x, depth_step_y) = if is_small { plane.of_small() } else { plane.exact() };
     Some(FlatTriangle {
-        colour: colour(),
+        colour: Rgb332::BLACK,
         columns: Span::new(x_first as u16, x_last as u16),
         rows: Span::new(y_first as u16, y_last as u16),
         edges: [edge_value(ab, dy1, -dx1), edge_value(ca, -dy2, dx2), edge_value(bc, dy2 - dy1, dx1 - dx2)],
         steps: [EdgeSteps::new(dy1, -dx1), EdgeSteps::new(-dy2, dx2)],
-        depth: PacketDepth::from_bits(plane.0),
-        depth_step_x: PacketDepth::from_bits(plane.1),
-        depth_step_y: PacketDepth::from_bits(plane.2),
+        depth: PacketDepth::from_bits(depth),
+        depth_step_x: PacketDepth::from_bits(depth_step_x),
+        depth_step_y: PacketDepth::from_bits(depth_step_y),
     })
 }
 
-/// Depth at the first pixel and its steps in x and y, Q20.12 modulo 2³².
-///
-/// The plane through the corners, (dx, dy, dz) from the first to the second and third: its
-/// gradient is a cross product over twice the area, `area` > 0. The steps are floored to a
-/// multiple of 2⁻¹², which over the longest way in the guard band is an error below half a unit
-/// of depth; the reciprocal's error is in proportion to the difference in depth, so below
-/// 65,535 · 10⁻⁶. Half a unit is added, so that the device's floor rounds.
-#[inline(always)]
-fn depth_plane(
-    depth: i32,
-    (dx1, dy1, dz1): (i32, i32, i32),
-    (dx2, dy2, dz2): (i32, i32, i32),
+/// A triangle less wide and high than this, in sixteenths of a pixel, has a depth gradient whose
+/// numerators fit in 32 bits: 65,535 · 2¹⁴ · 2 < 2³¹.
+const SMALL: i32 = 1 << 14;
+
+/// How far an area is normalised when the upper half of gradient · reciprocal is the step itself.
+const EVEN: u32 = 61 - 32 - DEPTH_FRACTION_BITS - SUBPIXEL_BITS;
+
+/// The plane through a triangle's three depths, and where it is wanted.
+struct DepthPlane {
+    /// Depth at the first corner in Q20.12, and half a unit, so that the device's floor rounds.
+    start: i32,
+    /// From the first corner to the second: right, down, deeper.
+    first: (i32, i32, i32),
+    /// From the first corner to the third.
+    second: (i32, i32, i32),
+    /// Twice the area, above 0.
     area: i32,
-    (qx, qy): (i32, i32),
-) -> (i32, i32, i32) {
-    let gradient_x = i64::from(dz2) * i64::from(dy1) - i64::from(dz1) * i64::from(dy2);
-    let gradient_y = i64::from(dz1) * i64::from(dx2) - i64::from(dz2) * i64::from(dx1);
-    let normalising = (area as u32).leading_zeros();
-    let over_area = i64::from(reciprocal((area as u32) << normalising));
-    // gradient · 2¹² · 16 / area = gradient · (2⁶²/(area · 2^n)) / 2^(46−n).
-    let shift = 62 - DEPTH_FRACTION_BITS - SUBPIXEL_BITS - normalising;
-    let fits = |value: i64| i64::from(value as i32) == value;
-    let start = (depth << DEPTH_FRACTION_BITS) + (1 << (DEPTH_FRACTION_BITS - 1));
-    if fits(gradient_x) && fits(gradient_y) {
-        let step_x = (gradient_x * over_area) >> shift;
-        let step_y = (gradient_y * over_area) >> shift;
-        if fits(step_x) && fits(step_y) {
-            let from_corner = i64::from(step_x as i32) * i64::from(qx) + i64::from(step_y as i32) * i64::from(qy);
-            let first = start.wrapping_add((from_corner >> SUBPIXEL_BITS) as i32);
-            return (first, step_x as i32, step_y as i32);
-        }
-    }
-    steep_depth_plane(start, gradient_x, gradient_y, area, (qx, qy))
+    /// From the first corner to the box's first pixel.
+    to_pixel: (i32, i32),
 }
 
-/// The same for a plane so steep that its steps do not fit in 32 bits: slivers, and faces seen
-/// nearly edge-on. Divides exactly, and takes all sums modulo a power of two.
-#[cold]
-#[inline(never)]
-fn steep_depth_plane(start: i32, gradient_x: i64, gradient_y: i64, area: i32, (qx, qy): (i32, i32)) -> (i32, i32, i32) {
-    // Gradients are below 2³³, so the quotients are below 2⁴⁹.
-    let step = |gradient: i64| (gradient << (DEPTH_FRACTION_BITS + SUBPIXEL_BITS)).div_euclid(i64::from(area));
-    let (step_x, step_y) = (step(gradient_x), step(gradient_y));
-    let from_corner = step_x.wrapping_mul(i64::from(qx)).wrapping_add(step_y.wrapping_mul(i64::from(qy)));
-    (start.wrapping_add((from_corner >> SUBPIXEL_BITS) as i32), step_x as i32, step_y as i32)
+impl DepthPlane {
+    /// Depth at the first pixel and its steps in x and y, Q20.12 modulo 2³², of a small triangle.
+    ///
+    /// The gradient is a cross product over twice the area. Steps are floored to 2⁻¹², which over
+    /// 1,024 pixels each way is half a unit of depth; the reciprocal's own error is in proportion to the difference in depth, so
+    /// below 65,535 · 10⁻⁶.
+    #[inline(always)]
+    fn of_small(&self) -> (i32, i32, i32) {
+        let ((dx1, dy1, dz1), (dx2, dy2, dz2)) = (self.first, self.second);
+        let (gradient_x, gradient_y) = (dz2 * dy1 - dz1 * dy2, dz1 * dx2 - dz2 * dx1);
+        let normalising = (self.area as u32).leading_zeros();
+        let over_area = reciprocal((self.area as u32) << normalising);
+        // gradient · 2¹² · 16 / area = gradient · (2⁶¹/(area · 2^n)) / 2³² · 2^(n−13).
+        let (step_x, step_y) = if normalising >= EVEN {
+            let left = normalising - EVEN;
+            let (x, y) = (gradient_x << left, gradient_y << left);
+            if x >> left != gradient_x || y >> left != gradient_y {
+                return self.exact();
+            }
+            (high(x, over_area), high(y, over_area))
+        } else {
+            let right = EVEN - normalising;
+            (high(gradient_x, over_area) >> right, high(gradient_y, over_area) >> right)
+        };
+        let (qx, qy) = self.to_pixel;
+        let from_corner = i64::from(step_x) * i64::from(qx) + i64::from(step_y) * i64::from(qy);
+        (self.start.wrapping_add((from_corner >> SUBPIXEL_BITS) as i32), step_x, step_y)
+    }
+
+    /// The same for a triangle that is large, or so steep that its steps do not fit in 32 bits:
+    /// a sliver, or a face seen nearly edge-on. Divides exactly, and takes all sums modulo 2⁶⁴.
+    #[cold]
+    #[inline(never)]
+    fn exact(&self) -> (i32, i32, i32) {
+        let wide = |(x, y, z): (i32, i32, i32)| (i64::from(x), i64::from(y), i64::from(z));
+        let ((dx1, dy1, dz1), (dx2, dy2, dz2)) = (wide(self.first), wide(self.second));
+        // Gradients are below 2³³, so the quotients are below 2⁴⁹.
+        let step = |gradient: i64| (gradient << (DEPTH_FRACTION_BITS + SUBPIXEL_BITS)).div_euclid(self.area.into());
+        let (step_x, step_y) = (step(dz2 * dy1 - dz1 * dy2), step(dz1 * dx2 - dz2 * dx1));
+        let (qx, qy) = self.to_pixel;
+        let from_corner = step_x.wrapping_mul(qx.into()).wrapping_add(step_y.wrapping_mul(qy.into()));
+        (self.start.wrapping_add((from_corner >> SUBPIXEL_BITS) as i32), step_x as i32, step_y as i32)
+    }
 }

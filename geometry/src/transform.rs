@@ -3,23 +3,27 @@
 use fixed::types::I32F32;
 use fpga_regs::screen::{DEPTH_FAR, HEIGHT, SUBPIXEL, WIDTH};
 
+use crate::clip::{PLANES, distance};
 use crate::matrix::Matrix;
 use crate::mesh::{Mesh, Position};
-use crate::reciprocal::reciprocal;
+use crate::reciprocal::{high, reciprocal};
 use crate::setup::ScreenVertex;
 
 /// log₂ of the screen coordinate, in sixteenths of a pixel, where x = w in [`Homogeneous`] space.
-const FULL_SCALE_BITS: u32 = 14;
+const FULL_SCALE_BITS: u32 = 15;
 /// No coordinate of a [`Homogeneous`] vertex reaches 2 to this.
 const MAGNITUDE_BITS: u32 = 29;
+/// Fraction bits of a coordinate over w.
+const QUOTIENT_BITS: u32 = 29;
 /// The smallest w that is divided by; below it a vertex is clipped.
 pub const SMALLEST_W: i32 = 256;
 
 /// A vertex in homogeneous screen space.
 ///
-/// x/w and y/w are screen coordinates over 2¹⁴ sixteenths of a pixel, y down; z/w is depth, 0 at
-/// the near plane and 1 at the far one. All four share a scale that the [`ScreenTransform`]
-/// chose, and are below 2²⁹ in magnitude.
+/// x/w and y/w are screen coordinates over 2¹⁵ sixteenths of a pixel, y down; z/w is half the
+/// depth, 0 at the near plane and ½ at the far one. So inside the guard band and between the
+/// planes none of them exceeds w/2. All four share a scale that the [`ScreenTransform`] chose,
+/// and are below 2²⁹ in magnitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Homogeneous {
     /// To the right.
@@ -33,37 +37,34 @@ pub struct Homogeneous {
 }
 
 impl Homogeneous {
-    /// Returns the largest magnitude of x and y that the guard band takes at this w: it keeps a
-    /// rounded screen coordinate within [`GUARD_BAND`](fpga_regs::screen::GUARD_BAND).
+    /// Returns twice the largest magnitude of x and y that the guard band takes at this w: it
+    /// keeps a rounded screen coordinate within [`GUARD_BAND`](fpga_regs::screen::GUARD_BAND).
     #[inline(always)]
-    pub fn guard_band(&self) -> i32 {
-        self.w - (self.w >> (FULL_SCALE_BITS - 1))
+    pub fn doubled_guard_band(&self) -> i32 {
+        self.w - (self.w >> (FULL_SCALE_BITS - 2))
     }
 
-    /// Returns whether the vertex needs no clipping.
-    #[inline(always)]
-    fn is_inside(&self) -> bool {
-        let guard = self.guard_band();
-        let within = |value: i32| value.wrapping_add(guard) as u32 <= 2 * guard as u32;
-        // One unsigned comparison is both 0 ≤ z and z ≤ w.
-        self.w >= SMALLEST_W && self.z as u32 <= self.w as u32 && within(self.x) && within(self.y)
+    /// Returns which planes the vertex is outside of, a bit each, as [`clip`](crate::clip)
+    /// numbers them. Three corners that share a bit make a triangle of which nothing is left.
+    fn outcode(&self) -> u32 {
+        (0..PLANES).filter(|plane| distance(self, *plane) < 0).fold(0, |code, plane| code | 1 << plane)
     }
 
     /// Returns the vertex on the screen, each coordinate rounded half up.
     ///
-    /// The vertex must be inside: w at least [`SMALLEST_W`], z in 0…w, x and y in the guard band.
+    /// The vertex must be inside: w at least [`SMALLEST_W`], z in 0…w/2, x and y in the guard band.
     /// Screen coordinates are within 1/32 + 1/512 of a pixel of the exact quotient, depth within 0.6.
     #[inline(always)]
     pub(crate) fn project(&self) -> ScreenVertex {
         let shift = (self.w as u32).leading_zeros();
         let over_w = reciprocal((self.w as u32) << shift);
-        // (value · 2^(shift−1)) · (2⁶²/(w · 2^shift)) / 2³² = value/w in Q29.
-        let quotient = |value: i32| ((i64::from(value << (shift - 1)) * i64::from(over_w)) >> 32) as i32;
-        let fraction_bits = MAGNITUDE_BITS - FULL_SCALE_BITS;
+        // (value · 2^shift) · (2⁶¹/(w · 2^shift)) / 2³² = value/w in Q29; no value exceeds w/2.
+        let quotient = |value: i32| high(value << shift, over_w);
+        let fraction_bits = QUOTIENT_BITS - FULL_SCALE_BITS;
         let on_screen = |value: i32| (quotient(value) + (1 << (fraction_bits - 1))) >> fraction_bits;
-        // q · 65,535 = q · 65,536 − q, in Q29 less the 16 bits of the factor.
+        // Twice z/w is depth, so q is in Q28. q · 65,535 = q · 65,536 − q.
         let depth = quotient(self.z);
-        let depth = (depth - (depth >> 16) + (1 << 12)) >> 13;
+        let depth = (depth - (depth >> 16) + (1 << (QUOTIENT_BITS - 18))) >> (QUOTIENT_BITS - 17);
         ScreenVertex { x: on_screen(self.x), y: on_screen(self.y), depth, outside: 0 }
     }
 }
@@ -123,30 +124,61 @@ impl ScreenTransform {
         Homogeneous { x: x.times(position), y: y.times(position), z: z.times(position), w: w.times(position) }
     }
 
-    /// Returns a vertex on the screen, or marked as outside if it has to be clipped.
+    /// Puts a vertex on the screen, or marks it as outside if it has to be clipped; returns
+    /// whether it is inside.
     #[inline(always)]
+    pub(crate) fn to_screen(&self, position: &Position, vertex: &mut ScreenVertex) -> bool {
+        let homogeneous = self.homogeneous(position);
+        let doubled = homogeneous.doubled_guard_band();
+        let within = |value: i32| value.wrapping_add(doubled >> 1) as u32 <= doubled as u32;
+        // A branch a test: that is shorter than joining them. One unsigned comparison is both
+        // 0 ≤ z and z ≤ w/2.
+        if homogeneous.w < SMALLEST_W || homogeneous.z as u32 > homogeneous.w as u32 >> 1 {
+            return self.mark_outside(position, vertex);
+        }
+        if !within(homogeneous.x) {
+            return self.mark_outside(position, vertex);
+        }
+        if !within(homogeneous.y) {
+            return self.mark_outside(position, vertex);
+        }
+        *vertex = homogeneous.project();
+        true
+    }
+
+    /// Marks a vertex as outside. Starts from its position again, so that the fast path has
+    /// nothing to keep for it.
+    #[cold]
+    #[inline(never)]
+    fn mark_outside(&self, position: &Position, vertex: &mut ScreenVertex) -> bool {
+        *vertex = ScreenVertex { outside: self.homogeneous(position).outcode(), ..ScreenVertex::default() };
+        false
+    }
+
+    /// Returns a vertex on the screen, or marked as outside if it has to be clipped.
     pub fn screen(&self, position: &Position) -> ScreenVertex {
-        let vertex = self.homogeneous(position);
-        if vertex.is_inside() { vertex.project() } else { ScreenVertex::OUTSIDE }
+        let mut vertex = ScreenVertex::default();
+        self.to_screen(position, &mut vertex);
+        vertex
     }
 }
 
 /// Fraction bits of a position.
 const POSITION_BITS: u32 = 28;
-/// Fraction bits of the rows before they are scaled: 32 of the matrix and 11 of the viewport.
-const VIEWPORT_BITS: u32 = 11;
+/// Fraction bits of the viewport's factors, beside the matrix's 32.
+const VIEWPORT_BITS: u32 = 12;
 
-/// The rows x, y, z, w of [`Homogeneous`] space, exact, in Q43.
+/// The rows x, y, z, w of [`Homogeneous`] space, exact, in Q44.
 ///
-/// screen x = (x/w + 1)/2 · WIDTH · 16, so over 2¹⁴ it is (x + w) · WIDTH/2¹¹ / w.
+/// screen x = (x/w + 1)/2 · WIDTH · 16, so over 2¹⁵ it is (x + w) · WIDTH/2¹² / w.
 fn viewport_rows(matrix: &Matrix) -> [[i128; 4]; 4] {
-    const _: () = assert!(SUBPIXEL == 1 << (FULL_SCALE_BITS + 1 - VIEWPORT_BITS), "the viewport's factor is 2^-11");
+    const _: () = assert!(SUBPIXEL == 1 << (FULL_SCALE_BITS + 1 - VIEWPORT_BITS), "the viewport's factor is 2^-12");
     const _: () = assert!(DEPTH_FAR == 65_535, "project() multiplies by 65,535");
     let bits = |row: usize, column: usize| i128::from(I32F32::to_bits(matrix.rows[row][column]));
     [
         [0, 1, 2, 3].map(|column| (bits(3, column) + bits(0, column)) * i128::from(WIDTH)),
         [0, 1, 2, 3].map(|column| (bits(3, column) - bits(1, column)) * i128::from(HEIGHT)),
-        [0, 1, 2, 3].map(|column| (bits(3, column) + bits(2, column)) << (VIEWPORT_BITS - 1)),
+        [0, 1, 2, 3].map(|column| (bits(3, column) + bits(2, column)) << (VIEWPORT_BITS - 2)),
         [0, 1, 2, 3].map(|column| bits(3, column) << VIEWPORT_BITS),
     ]
 }
