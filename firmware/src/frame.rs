@@ -125,14 +125,15 @@ impl<'a, P: Port, W: Wait, T: FnMut() -> u64> PacketWriter<'a, P, W, T> {
 
 impl<P: Port, W: Wait, T: FnMut() -> u64> Sink for PacketWriter<'_, P, W, T> {
     #[inline(always)]
-    fn triangle(&mut self, triangle: &FlatTriangle, _: [&ScreenVertex; 3], _: [u8; 3]) -> ControlFlow<()> {
-        if self.used > BUFFER_WORDS - FlatTriangle::WORDS {
-            self.make_room()?;
+    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
+        if self.used > BUFFER_WORDS - FlatTriangle::WORDS && self.make_room().is_break() {
+            return None;
         }
-        if let Some(room) = self.buffer[self.used..].first_chunk_mut() {
-            *room = triangle.encode();
-            self.used += FlatTriangle::WORDS;
-        }
-        ControlFlow::Continue(())
+        self.buffer[self.used..].first_chunk_mut()
+    }
+
+    #[inline(always)]
+    fn take(&mut self, _: [&ScreenVertex; 3], _: [u8; 3]) {
+        self.used += FlatTriangle::WORDS;
     }
 }

@@ -2,12 +2,16 @@
 
 use fixed::types::{I2F30, I16F16};
 
+use fpga_regs::screen::Rgb332;
+
 use crate::matrix::{Matrix, Vector, dot, normalise};
 
 /// Fraction bits of a face's normal and of the light's direction.
 const DIRECTION_BITS: u32 = 14;
 /// Fraction bits of their product.
 const DOT_BITS: u32 = 2 * DIRECTION_BITS;
+/// Half of an intensity's unit.
+const HALF: i32 = 1 << (DOT_BITS - 9);
 
 /// A light infinitely far away, and the light that is everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,13 +31,13 @@ pub struct DirectionalLight {
 pub struct FaceLight {
     /// Towards the light, Q18.14, times the diffuse intensity.
     direction: [i32; 3],
-    /// Q4.28.
+    /// Q4.28, and half a 256th, so that the sum's floor rounds.
     ambient: i32,
 }
 
 impl FaceLight {
     /// Full light from everywhere: every face in its own colour.
-    pub const FULL: Self = Self { direction: [0; 3], ambient: 1 << DOT_BITS };
+    pub const FULL: Self = Self { direction: [0; 3], ambient: (1 << DOT_BITS) + HALF };
 
     /// Returns `light` in the space of an object with the given model matrix.
     ///
@@ -47,28 +51,46 @@ impl FaceLight {
         let diffuse = clamp(light.diffuse);
         // Q32.32 · Q16.16 is Q48; the unit vector keeps it in range.
         let direction = local.map(|part| (((part.to_bits() >> 16) * diffuse + (1 << 17)) >> 18) as i32);
-        Self { direction, ambient: (clamp(light.ambient) << (DOT_BITS - 16)) as i32 }
+        Self { direction, ambient: (clamp(light.ambient) << (DOT_BITS - 16)) as i32 + HALF }
     }
 
-    /// Returns the intensity on a face, 0…256: ambient plus diffuse times the cosine between its
-    /// normal and the light, negative cosines taken as 0, the sum cut at 256.
+    /// Returns the intensity on a face: ambient plus diffuse times the cosine between its normal
+    /// and the light, negative cosines taken as 0, the sum cut at 1.
     #[inline(always)]
-    pub fn intensity(&self, normal: [i16; 3]) -> u32 {
+    pub fn intensity(&self, normal: [i16; 3]) -> Intensity {
         let [x, y, z] = normal.map(i32::from);
-        // Each product is below 2³⁰ and the vectors are of unit length, so the sum fits.
-        let dot = (x.wrapping_mul(self.direction[0]))
-            .wrapping_add(y.wrapping_mul(self.direction[1]))
-            .wrapping_add(z.wrapping_mul(self.direction[2]));
-        let sum = dot.max(0).saturating_add(self.ambient + (1 << (DOT_BITS - 9)));
-        (sum >> (DOT_BITS - 8)).min(256) as u32
+        // At most 3 · 2¹⁵ · 2¹⁴, even for a normal that is none; with the ambient below 2³¹.
+        let dot = x * self.direction[0] + y * self.direction[1] + z * self.direction[2];
+        Intensity(((dot.max(0) + self.ambient) >> (DOT_BITS - 8)).min(256) as u32)
+    }
+}
+
+/// How brightly a face is lit, 0…256.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Intensity(u32);
+
+impl Intensity {
+    /// Returns the intensity in 256ths.
+    pub fn to_bits(self) -> u32 {
+        self.0
     }
 
-    /// Returns a face's lit colour: each channel times the intensity, rounded half up.
+    /// Returns a lit colour: each channel times the intensity, rounded half up.
     #[inline(always)]
-    pub fn shade(&self, normal: [i16; 3], colour: [u8; 3]) -> [u8; 3] {
-        let intensity = self.intensity(normal);
-        // At most (255 · 256 + 128) / 256, so it is a byte.
-        colour.map(|channel| ((u32::from(channel) * intensity + 128) >> 8) as u8)
+    pub fn colour(self, colour: [u8; 3]) -> [u8; 3] {
+        colour.map(|channel| ((u32::from(channel) * self.0 + 128) >> 8) as u8)
+    }
+
+    /// Returns the framebuffer colour nearest to the lit colour, rounded once: the product is
+    /// not rounded to a byte in between. Within 0.004 of a step it may take the neighbour.
+    #[inline(always)]
+    pub fn framebuffer_colour(self, [red, green, blue]: [u8; 3]) -> Rgb332 {
+        // As `Rgb332::nearest`, with 8 more bits: v·7/255 is v·225/2¹³, v·3/255 is v·193/2¹⁴.
+        let (of_8, of_4) = (self.0 * 225, self.0 * 193);
+        let red = (u32::from(red) * of_8 + (1 << 20)) >> 21;
+        let green = (u32::from(green) * of_8 + (1 << 20)) >> 21;
+        let blue = (u32::from(blue) * of_4 + (1 << 21)) >> 22;
+        Rgb332((red << 5 | green << 2 | blue) as u8)
     }
 }
 
@@ -90,7 +112,7 @@ mod tests {
         for step in 0..360u32 {
             let angle = Angle::from_degrees(I16F16::from_num(step));
             let model = Matrix::rotation_y(angle).times(&Matrix::scaling([fixed::types::I32F32::from_num(0.01); 3]));
-            let seen = FaceLight::new(&light(0.7, 0.2), &model).intensity([0, 0, 1 << 14]);
+            let seen = FaceLight::new(&light(0.7, 0.2), &model).intensity([0, 0, 1 << 14]).to_bits();
             let exact = 256.0 * (0.2 + 0.7 * f64::from(step).to_radians().cos().max(0.0));
             assert!((f64::from(seen) - exact).abs() < 0.6, "{step} degrees: {seen}, exact {exact}");
         }
@@ -99,18 +121,35 @@ mod tests {
     #[test]
     fn too_much_light_saturates_and_none_is_black() {
         assert_eq!(
-            FaceLight::new(&light(9.0, 9.0), &Matrix::IDENTITY).shade([0, 0, 1 << 14], [255, 1, 0]),
+            FaceLight::new(&light(9.0, 9.0), &Matrix::IDENTITY).intensity([0, 0, 1 << 14]).colour([255, 1, 0]),
             [255, 1, 0]
         );
-        assert_eq!(FaceLight::new(&light(1.0, -1.0), &Matrix::IDENTITY).shade([0, 0, -(1 << 14)], [255; 3]), [0; 3]);
-        assert_eq!(FaceLight::FULL.shade([i16::MIN; 3], [7, 8, 9]), [7, 8, 9]);
+        assert_eq!(
+            FaceLight::new(&light(1.0, -1.0), &Matrix::IDENTITY).intensity([0, 0, -(1 << 14)]).colour([255; 3]),
+            [0; 3]
+        );
+        assert_eq!(FaceLight::FULL.intensity([i16::MIN; 3]).colour([7, 8, 9]), [7, 8, 9]);
     }
 
     #[test]
     fn normals_of_any_bits_do_not_panic() {
         let lamp = FaceLight::new(&light(1.0, 1.0), &Matrix::IDENTITY);
         for normal in [[i16::MIN; 3], [i16::MAX; 3], [i16::MIN, i16::MAX, 0]] {
-            assert!(lamp.intensity(normal) <= 256);
+            assert!(lamp.intensity(normal).to_bits() <= 256);
+        }
+    }
+
+    #[test]
+    fn the_framebuffer_colour_is_the_nearest_to_the_unrounded_product() {
+        for channel in 0..=255u8 {
+            for intensity in 0..=256 {
+                let exact = f64::from(channel) * f64::from(intensity) / 256.0;
+                let Rgb332(bits) = Intensity(intensity).framebuffer_colour([channel; 3]);
+                for (level, of) in [(bits >> 5, 7.0), (bits >> 2 & 7, 7.0), (bits & 3, 3.0)] {
+                    let distance = (f64::from(level) - exact * of / 255.0).abs();
+                    assert!(distance < 0.504, "{channel} at {intensity}: level {level} of {of}");
+                }
+            }
         }
     }
 }

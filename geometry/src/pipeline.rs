@@ -3,13 +3,12 @@
 use core::fmt;
 use core::ops::ControlFlow;
 
-use fpga_regs::packet::FlatTriangle;
-use fpga_regs::screen::Rgb332;
+use fpga_regs::packet::{FlatTriangle, Header, Kind};
 
 use crate::clip::{MAX_CORNERS, clip};
 use crate::light::FaceLight;
 use crate::mesh::{Face, Mesh, Position, Winding};
-use crate::setup::{ScreenVertex, doubled_area, set_up};
+use crate::setup::{ScreenVertex, doubled_area, set_up_words};
 use crate::transform::ScreenTransform;
 
 /// Which faces are drawn.
@@ -25,12 +24,17 @@ pub enum Culling {
 
 /// Where set-up triangles go.
 pub trait Sink {
-    /// Takes a triangle, in the order in which the mesh has them, and says whether to go on.
+    /// Returns room for one more packet, or `None` to end the drawing; a sink that does keeps
+    /// the reason.
     ///
-    /// `corners` and `colour` are what `triangle` was made from, for whoever wants to look on:
-    /// counter-clockwise on screen, and 8 bits a channel. A sink that breaks off keeps the
-    /// reason; the drawing ends there.
-    fn triangle(&mut self, triangle: &FlatTriangle, corners: [&ScreenVertex; 3], colour: [u8; 3]) -> ControlFlow<()>;
+    /// Room that was asked for may go unused: the next one asked for takes its place.
+    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]>;
+
+    /// Takes the packet that was written into the last [`room`](Sink::room).
+    ///
+    /// `corners` and `colour` are what it was made from, for whoever wants to look on:
+    /// counter-clockwise on screen, and 8 bits a channel.
+    fn take(&mut self, corners: [&ScreenVertex; 3], colour: [u8; 3]);
 }
 
 /// What became of a mesh's faces.
@@ -170,9 +174,9 @@ impl<S: Sink> Pass<'_, S> {
             }
             let area = doubled_area([a, b, c]);
             if area < 0 {
-                self.front_face([a, b, c], area, face)?;
+                self.front_face(a, b, c, face)?;
             } else if self.culling == Culling::None && area > 0 {
-                self.back_face([a, b, c], area, face)?;
+                self.back_face(a, b, c, face)?;
             }
         }
         ControlFlow::Continue(())
@@ -180,21 +184,23 @@ impl<S: Sink> Pass<'_, S> {
 
     /// Lights and sets up a triangle whose corners go counter-clockwise on screen.
     #[inline(never)]
-    fn front_face(&mut self, corners: [&ScreenVertex; 3], area: i32, face: &Face) -> ControlFlow<()> {
-        let Some(triangle) = set_up(corners, area) else { return ControlFlow::Continue(()) };
-        let colour = self.light.shade(face.normal, face.colour);
-        let [red, green, blue] = colour;
-        let triangle = triangle.with_colour(Rgb332::nearest(red, green, blue));
-        self.drawn += 1;
-        self.sink.triangle(&triangle, corners, colour)
+    fn front_face(&mut self, a: &ScreenVertex, b: &ScreenVertex, c: &ScreenVertex, face: &Face) -> ControlFlow<()> {
+        let Some(words) = self.sink.room() else { return ControlFlow::Break(()) };
+        if set_up_words([a, b, c], words) {
+            let intensity = self.light.intensity(face.normal);
+            words[0] = Header::of(Kind::FlatTriangle).0 | u32::from(intensity.framebuffer_colour(face.colour).0);
+            self.drawn += 1;
+            self.sink.take([a, b, c], intensity.colour(face.colour));
+        }
+        ControlFlow::Continue(())
     }
 
     /// A face seen from behind that is to be drawn: turned round, its normal with it.
     #[cold]
     #[inline(never)]
-    fn back_face(&mut self, [a, b, c]: [&ScreenVertex; 3], area: i32, face: &Face) -> ControlFlow<()> {
+    fn back_face(&mut self, a: &ScreenVertex, b: &ScreenVertex, c: &ScreenVertex, face: &Face) -> ControlFlow<()> {
         let turned = Face { normal: face.normal.map(i16::saturating_neg), ..*face };
-        self.front_face([a, c, b], -area, &turned)
+        self.front_face(a, c, b, &turned)
     }
 
     /// Clips a face and draws what is left as a fan.
@@ -213,12 +219,12 @@ impl<S: Sink> Pass<'_, S> {
             return ControlFlow::Continue(());
         };
         for pair in rest.windows(2) {
-            let corners = [first, &pair[0], &pair[1]];
-            let area = doubled_area(corners);
+            let (second, third) = (&pair[0], &pair[1]);
+            let area = doubled_area([first, second, third]);
             if area < 0 {
-                self.front_face(corners, area, face)?;
+                self.front_face(first, second, third, face)?;
             } else if self.culling == Culling::None && area > 0 {
-                self.back_face(corners, area, face)?;
+                self.back_face(first, second, third, face)?;
             }
         }
         ControlFlow::Continue(())

@@ -3,8 +3,8 @@
 //! After Pineda, "A Parallel Algorithm for Polygon Rasterization" (SIGGRAPH 1988). The formats
 //! and ranges of what it makes stand in [`fpga_regs::packet`].
 
-use fpga_regs::packet::{EdgeSteps, FlatTriangle, Span};
-use fpga_regs::screen::{DEPTH_FRACTION_BITS, HEIGHT, PacketDepth, Rgb332, SUBPIXEL, SUBPIXEL_BITS, WIDTH};
+use fpga_regs::packet::{EdgeSteps, FlatTriangle, Header, Kind, Packet, Span};
+use fpga_regs::screen::{DEPTH_FRACTION_BITS, HEIGHT, SUBPIXEL, SUBPIXEL_BITS, WIDTH};
 
 use crate::reciprocal::{high, reciprocal};
 
@@ -58,46 +58,81 @@ fn edge_value(value: i32, step_x: i32, step_y: i32) -> i32 {
     (value + (top_left >> 31)) >> SUBPIXEL_BITS
 }
 
-/// Sets up a triangle whose corners go counter-clockwise on screen, `area` being its
-/// [`doubled_area`], below 0. It comes out black. Returns `None` when no pixel centre lies in its
-/// box on the screen.
-#[inline(always)]
-pub fn set_up([a, b, c]: [&ScreenVertex; 3], area: i32) -> Option<FlatTriangle> {
-    debug_assert!(area < 0);
-    let (x_low, x_high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
-    let (y_low, y_high) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-    let (x_first, x_last) = (first_pixel(x_low), last_pixel(x_high, WIDTH));
-    let (y_first, y_last) = (first_pixel(y_low), last_pixel(y_high, HEIGHT));
-    if x_first > x_last || y_first > y_last {
+/// Sets up a triangle whose corners go counter-clockwise on screen, so that its [`doubled_area`]
+/// is below 0. It comes out black. Returns `None` when no pixel centre lies in its box on the
+/// screen.
+///
+/// The corners must lie within the guard band and their depths in 0…65,535.
+pub fn set_up(corners: [&ScreenVertex; 3]) -> Option<FlatTriangle> {
+    let mut words = [Header::of(Kind::FlatTriangle).0; FlatTriangle::WORDS];
+    if !set_up_words(corners, &mut words) {
         return None;
     }
+    match Packet::decode(Header(words[0]), &words[1..]) {
+        Ok(Packet::FlatTriangle(triangle)) => Some(triangle),
+        _ => None,
+    }
+}
+
+/// As [`set_up`], but writes the packet's words, all but the header, and returns whether there
+/// is a triangle to draw.
+///
+/// They are written as soon as they are known: the processor has too few registers to keep them.
+#[inline(always)]
+pub(crate) fn set_up_words([a, b, c]: [&ScreenVertex; 3], words: &mut [u32; FlatTriangle::WORDS]) -> bool {
+    let (x_low, x_high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+    let (x_first, x_last) = (first_pixel(x_low), last_pixel(x_high, WIDTH));
+    let (y_low, y_high) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+    let (y_first, y_last) = (first_pixel(y_low), last_pixel(y_high, HEIGHT));
+    if x_first > x_last || y_first > y_last {
+        return false;
+    }
+    words[1] = Span::new(x_first as u16, x_last as u16).0;
+    words[2] = Span::new(y_first as u16, y_last as u16).0;
+
     let ((dx1, dy1), (dx2, dy2)) = ((b.x - a.x, b.y - a.y), (c.x - a.x, c.y - a.y));
     // From the first corner to the centre of the box's first pixel.
-    let qx = (x_first << SUBPIXEL_BITS) + SUBPIXEL / 2 - a.x;
-    let qy = (y_first << SUBPIXEL_BITS) + SUBPIXEL / 2 - a.y;
-    // Edges a→b, c→a, b→c. The three values sum to −area at every point.
+    let (qx, qy) = to_centre(a, x_first, y_first);
+    // Edges a→b, c→a, b→c. The three values sum to the area at every point.
+    let area = dx2 * dy1 - dx1 * dy2;
     let ab = dy1 * qx - dx1 * qy;
     let ca = dx2 * qy - dy2 * qx;
-    let bc = -area - ab - ca;
-    let plane = DepthPlane {
-        start: (a.depth << DEPTH_FRACTION_BITS) + (1 << (DEPTH_FRACTION_BITS - 1)),
-        first: (dx1, dy1, b.depth - a.depth),
-        second: (dx2, dy2, c.depth - a.depth),
-        area: -area,
-        to_pixel: (qx, qy),
-    };
+    let bc = area - ab - ca;
+    words[3] = edge_value(ab, dy1, -dx1) as u32;
+    words[4] = edge_value(ca, -dy2, dx2) as u32;
+    words[5] = edge_value(bc, dy2 - dy1, dx1 - dx2) as u32;
+    words[6] = EdgeSteps::new(dy1, -dx1).0;
+    words[7] = EdgeSteps::new(-dy2, dx2).0;
+
     let is_small = (x_high - x_low) | (y_high - y_low) < SMALL;
-    let (depth, depth_step_x, depth_step_y) = if is_small { plane.of_small() } else { plane.exact() };
-    Some(FlatTriangle {
-        colour: Rgb332::BLACK,
-        columns: Span::new(x_first as u16, x_last as u16),
-        rows: Span::new(y_first as u16, y_last as u16),
-        edges: [edge_value(ab, dy1, -dx1), edge_value(ca, -dy2, dx2), edge_value(bc, dy2 - dy1, dx1 - dx2)],
-        steps: [EdgeSteps::new(dy1, -dx1), EdgeSteps::new(-dy2, dx2)],
-        depth: PacketDepth::from_bits(depth),
-        depth_step_x: PacketDepth::from_bits(depth_step_x),
-        depth_step_y: PacketDepth::from_bits(depth_step_y),
-    })
+    let steps = if is_small {
+        let (dz1, dz2) = (b.depth - a.depth, c.depth - a.depth);
+        depth_steps((dz2 * dy1 - dz1 * dy2, dz1 * dx2 - dz2 * dx1), area)
+    } else {
+        None
+    };
+    let Some((step_x, step_y)) = steps else {
+        steep_depth_plane([a, b, c], (x_first, y_first), words);
+        return true;
+    };
+    let from_corner = i64::from(step_x) * i64::from(qx) + i64::from(step_y) * i64::from(qy);
+    words[8] = depth_start(a).wrapping_add((from_corner >> SUBPIXEL_BITS) as i32) as u32;
+    words[9] = step_x as u32;
+    words[10] = step_y as u32;
+    true
+}
+
+/// The way from a corner to the centre of a pixel, in sixteenths of a pixel.
+#[inline(always)]
+fn to_centre(corner: &ScreenVertex, column: i32, row: i32) -> (i32, i32) {
+    let half = SUBPIXEL / 2;
+    ((column << SUBPIXEL_BITS) + half - corner.x, (row << SUBPIXEL_BITS) + half - corner.y)
+}
+
+/// A corner's depth in Q20.12, and half a unit more, so that the device's floor rounds.
+#[inline(always)]
+fn depth_start(corner: &ScreenVertex) -> i32 {
+    (corner.depth << DEPTH_FRACTION_BITS) | 1 << (DEPTH_FRACTION_BITS - 1)
 }
 
 /// A triangle less wide and high than this, in sixteenths of a pixel, has a depth gradient whose
@@ -107,61 +142,42 @@ const SMALL: i32 = 1 << 14;
 /// How far an area is normalised when the upper half of gradient · reciprocal is the step itself.
 const EVEN: u32 = 61 - 32 - DEPTH_FRACTION_BITS - SUBPIXEL_BITS;
 
-/// The plane through a triangle's three depths, and where it is wanted.
-struct DepthPlane {
-    /// Depth at the first corner in Q20.12, and half a unit, so that the device's floor rounds.
-    start: i32,
-    /// From the first corner to the second: right, down, deeper.
-    first: (i32, i32, i32),
-    /// From the first corner to the third.
-    second: (i32, i32, i32),
-    /// Twice the area, above 0.
-    area: i32,
-    /// From the first corner to the box's first pixel.
-    to_pixel: (i32, i32),
+/// Steps of depth in x and y, Q20.12, of a small triangle: its gradient's numerators over twice
+/// its area. `None` if they do not fit in 32 bits.
+///
+/// Steps are floored to 2⁻¹², which over 1,024 pixels each way is half a unit of depth; the
+/// reciprocal's own error is in proportion to the difference in depth, so below 65,535 · 10⁻⁶.
+#[inline(always)]
+fn depth_steps((gradient_x, gradient_y): (i32, i32), area: i32) -> Option<(i32, i32)> {
+    let normalising = (area as u32).leading_zeros();
+    let over_area = reciprocal((area as u32) << normalising);
+    // gradient · 2¹² · 16 / area = gradient · (2⁶¹/(area · 2^n)) / 2³² · 2^(n−13).
+    if normalising < EVEN {
+        let right = EVEN - normalising;
+        return Some((high(gradient_x, over_area) >> right, high(gradient_y, over_area) >> right));
+    }
+    let left = normalising - EVEN;
+    let (x, y) = (gradient_x << left, gradient_y << left);
+    if x >> left != gradient_x || y >> left != gradient_y {
+        return None;
+    }
+    Some((high(x, over_area), high(y, over_area)))
 }
 
-impl DepthPlane {
-    /// Depth at the first pixel and its steps in x and y, Q20.12 modulo 2³², of a small triangle.
-    ///
-    /// The gradient is a cross product over twice the area. Steps are floored to 2⁻¹², which over
-    /// 1,024 pixels each way is half a unit of depth; the reciprocal's own error is in proportion to the difference in depth, so
-    /// below 65,535 · 10⁻⁶.
-    #[inline(always)]
-    fn of_small(&self) -> (i32, i32, i32) {
-        let ((dx1, dy1, dz1), (dx2, dy2, dz2)) = (self.first, self.second);
-        let (gradient_x, gradient_y) = (dz2 * dy1 - dz1 * dy2, dz1 * dx2 - dz2 * dx1);
-        let normalising = (self.area as u32).leading_zeros();
-        let over_area = reciprocal((self.area as u32) << normalising);
-        // gradient · 2¹² · 16 / area = gradient · (2⁶¹/(area · 2^n)) / 2³² · 2^(n−13).
-        let (step_x, step_y) = if normalising >= EVEN {
-            let left = normalising - EVEN;
-            let (x, y) = (gradient_x << left, gradient_y << left);
-            if x >> left != gradient_x || y >> left != gradient_y {
-                return self.exact();
-            }
-            (high(x, over_area), high(y, over_area))
-        } else {
-            let right = EVEN - normalising;
-            (high(gradient_x, over_area) >> right, high(gradient_y, over_area) >> right)
-        };
-        let (qx, qy) = self.to_pixel;
-        let from_corner = i64::from(step_x) * i64::from(qx) + i64::from(step_y) * i64::from(qy);
-        (self.start.wrapping_add((from_corner >> SUBPIXEL_BITS) as i32), step_x, step_y)
-    }
-
-    /// The same for a triangle that is large, or so steep that its steps do not fit in 32 bits:
-    /// a sliver, or a face seen nearly edge-on. Divides exactly, and takes all sums modulo 2⁶⁴.
-    #[cold]
-    #[inline(never)]
-    fn exact(&self) -> (i32, i32, i32) {
-        let wide = |(x, y, z): (i32, i32, i32)| (i64::from(x), i64::from(y), i64::from(z));
-        let ((dx1, dy1, dz1), (dx2, dy2, dz2)) = (wide(self.first), wide(self.second));
-        // Gradients are below 2³³, so the quotients are below 2⁴⁹.
-        let step = |gradient: i64| (gradient << (DEPTH_FRACTION_BITS + SUBPIXEL_BITS)).div_euclid(self.area.into());
-        let (step_x, step_y) = (step(dz2 * dy1 - dz1 * dy2), step(dz1 * dx2 - dz2 * dx1));
-        let (qx, qy) = self.to_pixel;
-        let from_corner = step_x.wrapping_mul(qx.into()).wrapping_add(step_y.wrapping_mul(qy.into()));
-        (self.start.wrapping_add((from_corner >> SUBPIXEL_BITS) as i32), step_x as i32, step_y as i32)
-    }
+/// Depth of a triangle that is large, or so steep that its steps do not fit in 32 bits: a sliver,
+/// or a face seen nearly edge-on. Divides exactly, and takes all sums modulo 2⁶⁴.
+#[cold]
+#[inline(never)]
+fn steep_depth_plane([a, b, c]: [&ScreenVertex; 3], first: (i32, i32), words: &mut [u32; FlatTriangle::WORDS]) {
+    let side = |to: &ScreenVertex| (i64::from(to.x - a.x), i64::from(to.y - a.y), i64::from(to.depth - a.depth));
+    let ((dx1, dy1, dz1), (dx2, dy2, dz2)) = (side(b), side(c));
+    // Gradients are below 2³³, so the quotients are below 2⁴⁹.
+    let area = dx2 * dy1 - dx1 * dy2;
+    let step = |gradient: i64| (gradient << (DEPTH_FRACTION_BITS + SUBPIXEL_BITS)).div_euclid(area);
+    let (step_x, step_y) = (step(dz2 * dy1 - dz1 * dy2), step(dz1 * dx2 - dz2 * dx1));
+    let (qx, qy) = to_centre(a, first.0, first.1);
+    let from_corner = step_x.wrapping_mul(qx.into()).wrapping_add(step_y.wrapping_mul(qy.into()));
+    words[8] = depth_start(a).wrapping_add((from_corner >> SUBPIXEL_BITS) as i32) as u32;
+    words[9] = step_x as u32;
+    words[10] = step_y as u32;
 }
