@@ -14,8 +14,8 @@
 //!
 //! | quantity | format | range that setup produces |
 //! | --- | --- | --- |
-//! | edge step (A per pixel in x, B in y) | signed 16-bit integer | ±32,766: a difference of two coordinates in the [guard band](crate::screen::GUARD_BAND) |
-//! | edge value at a pixel of the screen | signed integer, in steps of an edge | ±2²⁶: twice the area of a triangle in the guard band's square, ≤ 2³⁰, over [`SUBPIXEL`](crate::screen::SUBPIXEL) |
+//! | edge step (A per pixel in x, B in y) | signed 16-bit integer | ±16,382: a difference of two coordinates in the [guard band](crate::screen::GUARD_BAND) |
+//! | edge value at a pixel of the screen | signed integer, in steps of an edge | ±2²⁴: twice the area of a triangle in the guard band's square, ≤ 2²⁸, over [`SUBPIXEL`](crate::screen::SUBPIXEL) |
 //! | depth and its steps | signed Q20.12 **modulo 2³²** | any; at every covered pixel the sum lies in −1…65,536 |
 //!
 //! Depth is modular on purpose. A plane seen nearly edge-on has slopes past any range, but a sum

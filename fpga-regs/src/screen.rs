@@ -19,11 +19,11 @@ pub const SUBPIXEL_BITS: u32 = 4;
 pub const SUBPIXEL: i32 = 1 << SUBPIXEL_BITS;
 
 /// Guard band: the largest magnitude of a vertex's screen coordinate, in sixteenths of a pixel,
-/// that triangle setup takes (1023.9375 pixels on each side of the screen's upper left corner).
+/// that triangle setup takes (511.9375 pixels on each side of the screen's upper left corner).
 ///
-/// Chosen by the number format: the difference of two such coordinates fits in 16 bits, and
-/// twice the area of a triangle between them in 31.
-pub const GUARD_BAND: i32 = (1 << 14) - 1;
+/// Chosen by the number formats: the difference of two such coordinates is below 2¹⁴, twice the
+/// area of a triangle between them below 2²⁸, and the numerator of its depth gradient below 2³¹.
+pub const GUARD_BAND: i32 = (1 << 13) - 1;
 
 /// Fraction bits of depth and its steps in a packet (Q20.12).
 pub const DEPTH_FRACTION_BITS: u32 = 12;
@@ -97,9 +97,10 @@ mod tests {
     }
 
     #[test]
-    fn the_guard_band_keeps_differences_in_16_bits_and_doubled_areas_in_31() {
-        assert!(2 * GUARD_BAND <= i32::from(i16::MAX));
-        assert!(i64::from(2 * GUARD_BAND) * i64::from(2 * GUARD_BAND) < 1 << 30);
+    fn the_guard_band_keeps_its_promises_and_holds_the_screen() {
+        let widest = i64::from(2 * GUARD_BAND);
+        assert!(widest < 1 << 14 && widest * widest < 1 << 28);
+        assert!(2 * widest * i64::from(DEPTH_FAR) < 1 << 31);
         assert!((WIDTH.max(HEIGHT) as i32) < GUARD_BAND / SUBPIXEL);
     }
 }

@@ -158,18 +158,16 @@ pub fn subtract(a: Vector, b: Vector) -> Vector {
 
 /// Returns the vector of length 1 in the same direction, each part within 2⁻²⁹, or `None` for zero.
 pub fn normalise(vector: Vector) -> Option<Vector> {
-    // Shifted so that the largest part has 30 bits: the squares' sum then fits in 63.
-    let parts = vector.map(|part| i128::from(part.to_bits()));
+    let parts = vector.map(I32F32::to_bits);
     let largest = parts.iter().map(|part| part.unsigned_abs()).max()?;
     if largest == 0 {
         return None;
     }
-    let shift = 30 - (128 - largest.leading_zeros() as i32);
+    // Shifted so that the largest part has 30 bits: the squares' sum then fits in 62.
+    let shift = largest.leading_zeros() as i32 - 34;
     let parts = parts.map(|part| if shift >= 0 { part << shift } else { part >> -shift });
-    let square: i128 = parts.iter().map(|part| part * part).sum();
-    // 32 more bits under the root are 16 more in it.
-    let length = (square as u128).checked_shl(32)?.isqrt() as i128;
-    Some(parts.map(|part| saturate(round_quotient(part << 48, length))))
+    let length = parts.iter().map(|part| part * part).sum::<i64>().isqrt();
+    Some(parts.map(|part| I32F32::from_bits((part << 32) / length)))
 }
 
 /// Returns a unit vector's parts in Q2.30.

@@ -115,7 +115,12 @@ impl<'a> Transformed<'a> {
     pub fn draw(&self, light: &FaceLight, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
         let mut pass = Pass { transformed: self, light, culling, sink, drawn: 0, clipped: 0 };
         // A mesh wholly inside needs no test for it at every face.
-        let _ = if self.any_outside { pass.faces::<true>() } else { pass.faces::<false>() };
+        let _ = match (self.any_outside, culling) {
+            (false, Culling::BackFaces) => pass.faces::<false, false>(),
+            (false, Culling::None) => pass.faces::<false, true>(),
+            (true, Culling::BackFaces) => pass.faces::<true, false>(),
+            (true, Culling::None) => pass.faces::<true, true>(),
+        };
         DrawStatistics {
             vertices: self.cache.len() as u32,
             submitted: self.mesh.faces().len() as u32,
@@ -151,7 +156,7 @@ impl<S: Sink> Pass<'_, S> {
     /// The loop that most faces do not get further than: it is kept small, and what a face that
     /// shows needs beyond it is a call away.
     #[inline(never)]
-    fn faces<const ANY_OUTSIDE: bool>(&mut self) -> ControlFlow<()> {
+    fn faces<const ANY_OUTSIDE: bool, const BOTH_SIDES: bool>(&mut self) -> ControlFlow<()> {
         let Transformed { mesh, cache, .. } = *self.transformed;
         // A clockwise mesh is a counter-clockwise one with two corners swapped.
         let (second, third) = match mesh.winding() {
@@ -175,7 +180,7 @@ impl<S: Sink> Pass<'_, S> {
             let area = doubled_area([a, b, c]);
             if area < 0 {
                 self.front_face(a, b, c, face)?;
-            } else if self.culling == Culling::None && area > 0 {
+            } else if BOTH_SIDES && area > 0 {
                 self.back_face(a, b, c, face)?;
             }
         }

@@ -27,7 +27,7 @@ pub struct ScreenVertex {
 /// corners go clockwise on screen (where y is down), which is the back of a face whose winding
 /// is counter-clockwise.
 ///
-/// Within the guard band it is below 2³⁰ in magnitude.
+/// Within the guard band it is below 2²⁸ in magnitude.
 #[inline(always)]
 pub fn doubled_area([a, b, c]: [&ScreenVertex; 3]) -> i32 {
     (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
@@ -43,6 +43,14 @@ fn first_pixel(low: i32) -> i32 {
 #[inline(always)]
 fn last_pixel(high: i32, size: u32) -> i32 {
     ((high - SUBPIXEL / 2) >> SUBPIXEL_BITS).min(size as i32 - 1)
+}
+
+/// First and last pixel of a triangle's box along one axis: one corner's coordinate, and the
+/// ways from it to the other two.
+#[inline(always)]
+fn span(corner: i32, to_second: i32, to_third: i32, size: u32) -> (i32, i32) {
+    let (low, high) = (to_second.min(0).min(to_third), to_second.max(0).max(to_third));
+    (first_pixel(corner + low), last_pixel(corner + high, size))
 }
 
 /// An edge's value for the packet: top-left rule folded in, then in steps of a pixel.
@@ -80,17 +88,15 @@ pub fn set_up(corners: [&ScreenVertex; 3]) -> Option<FlatTriangle> {
 /// They are written as soon as they are known: the processor has too few registers to keep them.
 #[inline(always)]
 pub(crate) fn set_up_words([a, b, c]: [&ScreenVertex; 3], words: &mut [u32; FlatTriangle::WORDS]) -> bool {
-    let (x_low, x_high) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
-    let (x_first, x_last) = (first_pixel(x_low), last_pixel(x_high, WIDTH));
-    let (y_low, y_high) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-    let (y_first, y_last) = (first_pixel(y_low), last_pixel(y_high, HEIGHT));
+    let ((dx1, dy1), (dx2, dy2)) = ((b.x - a.x, b.y - a.y), (c.x - a.x, c.y - a.y));
+    let (x_first, x_last) = span(a.x, dx1, dx2, WIDTH);
+    let (y_first, y_last) = span(a.y, dy1, dy2, HEIGHT);
     if x_first > x_last || y_first > y_last {
         return false;
     }
     words[1] = Span::new(x_first as u16, x_last as u16).0;
     words[2] = Span::new(y_first as u16, y_last as u16).0;
 
-    let ((dx1, dy1), (dx2, dy2)) = ((b.x - a.x, b.y - a.y), (c.x - a.x, c.y - a.y));
     // From the first corner to the centre of the box's first pixel.
     let (qx, qy) = to_centre(a, x_first, y_first);
     // Edges a→b, c→a, b→c. The three values sum to the area at every point.
@@ -104,15 +110,10 @@ pub(crate) fn set_up_words([a, b, c]: [&ScreenVertex; 3], words: &mut [u32; Flat
     words[6] = EdgeSteps::new(dy1, -dx1).0;
     words[7] = EdgeSteps::new(-dy2, dx2).0;
 
-    let is_small = (x_high - x_low) | (y_high - y_low) < SMALL;
-    let steps = if is_small {
-        let (dz1, dz2) = (b.depth - a.depth, c.depth - a.depth);
-        depth_steps((dz2 * dy1 - dz1 * dy2, dz1 * dx2 - dz2 * dx1), area)
-    } else {
-        None
-    };
-    let Some((step_x, step_y)) = steps else {
-        steep_depth_plane([a, b, c], (x_first, y_first), words);
+    let (dz1, dz2) = (b.depth - a.depth, c.depth - a.depth);
+    let gradient = (dz2 * dy1 - dz1 * dy2, dz1 * dx2 - dz2 * dx1);
+    let Some((step_x, step_y)) = depth_steps(gradient, area) else {
+        steep_depth_plane(a, gradient, area, (qx, qy), words);
         return true;
     };
     let from_corner = i64::from(step_x) * i64::from(qx) + i64::from(step_y) * i64::from(qy);
@@ -135,15 +136,11 @@ fn depth_start(corner: &ScreenVertex) -> i32 {
     (corner.depth << DEPTH_FRACTION_BITS) | 1 << (DEPTH_FRACTION_BITS - 1)
 }
 
-/// A triangle less wide and high than this, in sixteenths of a pixel, has a depth gradient whose
-/// numerators fit in 32 bits: 65,535 · 2¹⁴ · 2 < 2³¹.
-const SMALL: i32 = 1 << 14;
-
 /// How far an area is normalised when the upper half of gradient · reciprocal is the step itself.
 const EVEN: u32 = 61 - 32 - DEPTH_FRACTION_BITS - SUBPIXEL_BITS;
 
-/// Steps of depth in x and y, Q20.12, of a small triangle: its gradient's numerators over twice
-/// its area. `None` if they do not fit in 32 bits.
+/// Steps of depth in x and y, Q20.12: the gradient's numerators over twice the area. `None` if
+/// they do not fit in 32 bits.
 ///
 /// Steps are floored to 2⁻¹², which over 1,024 pixels each way is half a unit of depth; the
 /// reciprocal's own error is in proportion to the difference in depth, so below 65,535 · 10⁻⁶.
@@ -164,20 +161,22 @@ fn depth_steps((gradient_x, gradient_y): (i32, i32), area: i32) -> Option<(i32, 
     Some((high(x, over_area), high(y, over_area)))
 }
 
-/// Depth of a triangle that is large, or so steep that its steps do not fit in 32 bits: a sliver,
-/// or a face seen nearly edge-on. Divides exactly, and takes all sums modulo 2⁶⁴.
+/// Depth of a triangle so steep that its steps do not fit in 32 bits: a sliver, or a face seen
+/// nearly edge-on. Divides exactly, and takes all sums modulo 2⁶⁴.
 #[cold]
 #[inline(never)]
-fn steep_depth_plane([a, b, c]: [&ScreenVertex; 3], first: (i32, i32), words: &mut [u32; FlatTriangle::WORDS]) {
-    let side = |to: &ScreenVertex| (i64::from(to.x - a.x), i64::from(to.y - a.y), i64::from(to.depth - a.depth));
-    let ((dx1, dy1, dz1), (dx2, dy2, dz2)) = (side(b), side(c));
-    // Gradients are below 2³³, so the quotients are below 2⁴⁹.
-    let area = dx2 * dy1 - dx1 * dy2;
-    let step = |gradient: i64| (gradient << (DEPTH_FRACTION_BITS + SUBPIXEL_BITS)).div_euclid(area);
-    let (step_x, step_y) = (step(dz2 * dy1 - dz1 * dy2), step(dz1 * dx2 - dz2 * dx1));
-    let (qx, qy) = to_centre(a, first.0, first.1);
+fn steep_depth_plane(
+    corner: &ScreenVertex,
+    (gradient_x, gradient_y): (i32, i32),
+    area: i32,
+    (qx, qy): (i32, i32),
+    words: &mut [u32; FlatTriangle::WORDS],
+) {
+    // Gradients are below 2³¹, so the quotients are below 2⁴⁷.
+    let step = |gradient: i32| (i64::from(gradient) << (DEPTH_FRACTION_BITS + SUBPIXEL_BITS)).div_euclid(area.into());
+    let (step_x, step_y) = (step(gradient_x), step(gradient_y));
     let from_corner = step_x.wrapping_mul(qx.into()).wrapping_add(step_y.wrapping_mul(qy.into()));
-    words[8] = depth_start(a).wrapping_add((from_corner >> SUBPIXEL_BITS) as i32) as u32;
+    words[8] = depth_start(corner).wrapping_add((from_corner >> SUBPIXEL_BITS) as i32) as u32;
     words[9] = step_x as u32;
     words[10] = step_y as u32;
 }

@@ -10,7 +10,7 @@ use crate::reciprocal::{high, reciprocal};
 use crate::setup::ScreenVertex;
 
 /// log₂ of the screen coordinate, in sixteenths of a pixel, where x = w in [`Homogeneous`] space.
-const FULL_SCALE_BITS: u32 = 15;
+const FULL_SCALE_BITS: u32 = 14;
 /// No coordinate of a [`Homogeneous`] vertex reaches 2 to this.
 const MAGNITUDE_BITS: u32 = 29;
 /// Fraction bits of a coordinate over w.
@@ -20,7 +20,7 @@ pub const SMALLEST_W: i32 = 256;
 
 /// A vertex in homogeneous screen space.
 ///
-/// x/w and y/w are screen coordinates over 2¹⁵ sixteenths of a pixel, y down; z/w is half the
+/// x/w and y/w are screen coordinates over 2¹⁴ sixteenths of a pixel, y down; z/w is half the
 /// depth, 0 at the near plane and ½ at the far one. So inside the guard band and between the
 /// planes none of them exceeds w/2. All four share a scale that the [`ScreenTransform`] chose,
 /// and are below 2²⁹ in magnitude.
@@ -166,13 +166,13 @@ impl ScreenTransform {
 /// Fraction bits of a position.
 const POSITION_BITS: u32 = 28;
 /// Fraction bits of the viewport's factors, beside the matrix's 32.
-const VIEWPORT_BITS: u32 = 12;
+const VIEWPORT_BITS: u32 = 11;
 
-/// The rows x, y, z, w of [`Homogeneous`] space, exact, in Q44.
+/// The rows x, y, z, w of [`Homogeneous`] space, exact, in Q43.
 ///
-/// screen x = (x/w + 1)/2 · WIDTH · 16, so over 2¹⁵ it is (x + w) · WIDTH/2¹² / w.
+/// screen x = (x/w + 1)/2 · WIDTH · 16, so over 2¹⁴ it is (x + w) · WIDTH/2¹¹ / w.
 fn viewport_rows(matrix: &Matrix) -> [[i128; 4]; 4] {
-    const _: () = assert!(SUBPIXEL == 1 << (FULL_SCALE_BITS + 1 - VIEWPORT_BITS), "the viewport's factor is 2^-12");
+    const _: () = assert!(SUBPIXEL == 1 << (FULL_SCALE_BITS + 1 - VIEWPORT_BITS), "the viewport's factor is 2^-11");
     const _: () = assert!(DEPTH_FAR == 65_535, "project() multiplies by 65,535");
     let bits = |row: usize, column: usize| i128::from(I32F32::to_bits(matrix.rows[row][column]));
     [
