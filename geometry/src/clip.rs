@@ -3,7 +3,7 @@
 //! Sutherland and Hodgman's algorithm ("Reentrant polygon clipping", CACM 17, 1974), a plane at
 //! a time. The slow path: most triangles need none of it.
 
-use crate::transform::{Homogeneous, SMALLEST_W};
+use crate::transform::{Homogeneous, SMALLEST_W, doubled_guard_band};
 
 /// Planes that a triangle may cross.
 pub(crate) const PLANES: usize = 7;
@@ -40,7 +40,7 @@ impl Polygon {
 /// Signed distance of a vertex to a plane, positive inside, scaled by the plane's own factor.
 /// Planes: 0 w, 1 near, 2 far, 3 right, 4 left, 5 bottom, 6 top of the guard band.
 pub(crate) fn distance(vertex: &Homogeneous, plane: usize) -> i64 {
-    let (w, guard) = (i64::from(vertex.w), i64::from(vertex.doubled_guard_band()));
+    let (w, guard) = (i64::from(vertex.w), i64::from(doubled_guard_band(vertex.w)));
     let doubled = |value: i32| 2 * i64::from(value);
     match plane {
         0 => w - i64::from(SMALLEST_W),

@@ -36,14 +36,14 @@ pub struct Homogeneous {
     pub w: i32,
 }
 
-impl Homogeneous {
-    /// Returns twice the largest magnitude of x and y that the guard band takes at this w: it
-    /// keeps a rounded screen coordinate within [`GUARD_BAND`](fpga_regs::screen::GUARD_BAND).
-    #[inline(always)]
-    pub fn doubled_guard_band(&self) -> i32 {
-        self.w - (self.w >> (FULL_SCALE_BITS - 2))
-    }
+/// Returns twice the largest magnitude of x and y that the guard band takes at a given w: it keeps
+/// a rounded screen coordinate within [`GUARD_BAND`](fpga_regs::screen::GUARD_BAND).
+#[inline(always)]
+pub fn doubled_guard_band(w: i32) -> i32 {
+    w - (w >> (FULL_SCALE_BITS - 2))
+}
 
+impl Homogeneous {
     /// Returns which planes the vertex is outside of, a bit each, as [`clip`](crate::clip)
     /// numbers them. Three corners that share a bit make a triangle of which nothing is left.
     fn outcode(&self) -> u32 {
@@ -128,21 +128,29 @@ impl ScreenTransform {
     /// whether it is inside.
     #[inline(always)]
     pub(crate) fn to_screen(&self, position: &Position, vertex: &mut ScreenVertex) -> bool {
-        let homogeneous = self.homogeneous(position);
-        let doubled = homogeneous.doubled_guard_band();
-        let within = |value: i32| value.wrapping_add(doubled >> 1) as u32 <= doubled as u32;
-        // A branch a test: that is shorter than joining them. One unsigned comparison is both
-        // 0 ≤ z and z ≤ w/2.
-        if homogeneous.w < SMALLEST_W || homogeneous.z as u32 > homogeneous.w as u32 >> 1 {
+        // A row at a time, and a branch a test: that keeps least in registers.
+        let bits = position.map(|part| part.to_bits());
+        let [row_x, row_y, row_z, row_w] = &self.rows;
+        let w = row_w.times(bits);
+        if w < SMALLEST_W {
             return self.mark_outside(position, vertex);
         }
-        if !within(homogeneous.x) {
+        let z = row_z.times(bits);
+        // One unsigned comparison is both 0 ≤ z and z ≤ w/2.
+        if z as u32 > w as u32 >> 1 {
             return self.mark_outside(position, vertex);
         }
-        if !within(homogeneous.y) {
+        let doubled_guard = doubled_guard_band(w);
+        let within = |value: i32| value.wrapping_add(doubled_guard >> 1) as u32 <= doubled_guard as u32;
+        let x = row_x.times(bits);
+        if !within(x) {
             return self.mark_outside(position, vertex);
         }
-        *vertex = homogeneous.project();
+        let y = row_y.times(bits);
+        if !within(y) {
+            return self.mark_outside(position, vertex);
+        }
+        *vertex = Homogeneous { x, y, z, w }.project();
         true
     }
 

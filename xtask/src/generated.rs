@@ -1,9 +1,10 @@
 //! The files that are written from one source and committed: the contract's reference page, its
-//! SystemVerilog package, and the plate that the firmware shows.
+//! SystemVerilog package, the plate that the firmware shows, and the demonstration's session.
 
 mod plate;
 mod reference_page;
 mod rtl_package;
+mod session;
 
 use anyhow::Context;
 
@@ -46,6 +47,7 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "docs/registers.md", text: reference_page::text() },
         GeneratedFile { path: "rtl/halfspace_pkg.sv", text: rtl_package::text() },
         GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
+        GeneratedFile { path: crate::session::DEMO, text: session::text() },
     ])
 }
 

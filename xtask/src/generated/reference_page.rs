@@ -81,8 +81,8 @@ fn packets(page: &mut String) {
     page.push_str(
         "\n### Formats of a triangle\n\n\
          | quantity | format | range that setup produces |\n| --- | --- | --- |\n\
-         | edge step | signed 16-bit integer | ±32,766: a difference of two coordinates in the guard band |\n\
-         | edge value at a pixel of the screen | signed integer in steps of an edge | ±2^26 |\n\
+         | edge step | signed 16-bit integer | ±16,382: a difference of two coordinates in the guard band |\n\
+         | edge value at a pixel of the screen | signed integer in steps of an edge | ±2^24 |\n\
          | depth and its steps | signed Q20.12 modulo 2^32 | any; at a covered pixel the sum is in −1…65,536 |\n\n\
          A pixel is inside where all three edge values are 0 or more; the third edge's steps are minus the sum of\n\
          the others'. Its depth is bits 31…12 of the sum, saturated to 0…65,535; it is drawn when that is less\n\
