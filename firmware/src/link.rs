@@ -28,6 +28,26 @@ pub enum HostMessage {
     Step,
     /// Run freely again.
     Run,
+    /// Commit a fault, so that its report can be seen; only firmware that was built with the feature
+    /// `fault-injection` does.
+    Fault(Fault),
+}
+
+/// A fault on purpose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fault {
+    /// A write to an address that nothing is mapped to.
+    DataAbort,
+    /// A jump to one.
+    PrefetchAbort,
+    /// A write to the program's own code.
+    WriteToCode,
+    /// An instruction that does not exist.
+    UndefinedInstruction,
+    /// A recursion without end.
+    StackOverflow,
+    /// A panic.
+    Panic,
 }
 
 /// What a board tells a PC.

@@ -91,12 +91,12 @@ impl Viewer {
         let (model, view, projection) = match self.scene {
             Scene::Plate => {
                 let model = pitch.times(&roll).times(&Matrix::rotation_y(self.spin));
-                (model, self.orbit(I16F16::lit("5"), I16F16::lit("24")), perspective("45", "1", "10"))
+                (model, self.orbit(I16F16::lit("3.4"), I16F16::lit("30")), perspective("45", "1", "10"))
             }
             Scene::Torus => {
                 let turning = Matrix::rotation_y(self.spin.plus(self.travel));
                 let model = pitch.times(&roll).times(&turning);
-                (model, self.orbit(I16F16::lit("4.2"), I16F16::lit("38")), perspective("45", "1", "10"))
+                (model, self.orbit(I16F16::lit("4"), I16F16::lit("38")), perspective("45", "1", "10"))
             }
             Scene::Tunnel => {
                 let view = Matrix::rotation_z(Angle::from_degrees(state.tilt.roll).negated());
@@ -105,7 +105,7 @@ impl Viewer {
                 (Matrix::IDENTITY, view, perspective("75", "0.1", "4"))
             }
         };
-        View { model, model_to_clip: projection.times(&view).times(&model), light: light(self.scene) }
+        View { model, model_to_clip: projection.times(&view).times(&model), light: light(self.scene, &view) }
     }
 
     /// The camera above the model, looking down on its middle by `elevation` degrees.
@@ -137,11 +137,20 @@ fn turned_by(stick: I2F14) -> Angle {
     Angle::from_bits(((i64::from(stick.to_bits()) * i64::from(TURN_RATE)) >> 14) as u32)
 }
 
-fn light(scene: Scene) -> DirectionalLight {
-    // Unit vectors: (−0.36, 0.8, 0.48), from above on the left; straight down for the tunnel.
-    let direction = match scene {
-        Scene::Plate | Scene::Torus => [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")],
-        Scene::Tunnel => [I2F30::ZERO, I2F30::ONE, I2F30::ZERO],
-    };
-    DirectionalLight { direction, diffuse: I16F16::lit("0.75"), ambient: I16F16::lit("0.25") }
+/// The scene's light: from above on the left, or in the tunnel from the eye.
+fn light(scene: Scene, view: &Matrix) -> DirectionalLight {
+    match scene {
+        Scene::Plate | Scene::Torus => DirectionalLight {
+            // A unit vector.
+            direction: [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")],
+            diffuse: I16F16::lit("0.75"),
+            ambient: I16F16::lit("0.25"),
+        },
+        Scene::Tunnel => {
+            // The view's third row: backwards, in world space.
+            let [x, y, z, _] = view.rows[2];
+            let direction = [x, y, z].map(I2F30::saturating_from_num);
+            DirectionalLight { direction, diffuse: I16F16::lit("0.7"), ambient: I16F16::lit("0.4") }
+        }
+    }
 }

@@ -52,6 +52,21 @@ impl Default for Behaviour {
     }
 }
 
+/// Registers that CONTROL.reset brings back to 0.
+const CLEARED_BY_RESET: [Register; 11] = [
+    Register::LowWater,
+    Register::Interrupts,
+    Register::Errors,
+    Register::Fence,
+    Register::Triangles,
+    Register::PixelsTested,
+    Register::PixelsWritten,
+    Register::BusyCycles,
+    Register::StalledCycles,
+    Register::FramesShown,
+    Register::BadPackets,
+];
+
 #[derive(Debug)]
 struct State {
     behaviour: Behaviour,
@@ -169,7 +184,7 @@ impl State {
                 if control.reset() {
                     self.fifo.clear();
                     self.taken.clear();
-                    for cleared in [Register::Errors, Register::Interrupts, Register::Fence, Register::BadPackets] {
+                    for cleared in CLEARED_BY_RESET {
                         *self.register(cleared) = 0;
                     }
                 }

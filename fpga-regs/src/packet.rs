@@ -7,7 +7,11 @@
 //! that is set, or a box that is empty or leaves the screen makes a *bad packet*: the device
 //! skips as many words as the header's length says, sets `ERRORS.bad_packet`, counts it in
 //! BAD_PACKETS, draws nothing for it and goes on. So no stream of words can hang it. A header of
-//! zero is bad: a FIFO fed with zeros says so.
+//! zero is bad: a FIFO fed with zeros says so. A bad header counts when it is taken, a bad word
+//! behind it when the packet's last word is.
+//!
+//! **Arithmetic.** The device adds edge values and depths modulo 2³², so that words which no setup
+//! makes draw the same wrong pixels everywhere.
 //!
 //! **Formats of a triangle.** With A, B the steps of an edge function and E its value, a pixel is
 //! inside where all three E ≥ 0 ([Pineda 1988]); the fill rule is folded into E by software.

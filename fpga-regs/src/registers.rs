@@ -77,9 +77,9 @@ word! {
 word! {
     /// CONTROL: what the device is allowed to do.
     Control {
-        /// Takes packets from the FIFO. While 0 the FIFO fills and nothing is drawn.
+        /// Takes words from the FIFO. While 0 the FIFO fills and nothing is drawn; a packet of which some words have come waits for the others.
         enable / with_enable: [0:0] bool,
-        /// Empties the FIFO, forgets the packet under way, clears counters, errors and interrupts; reads 1 until done. Buffers keep their pixels.
+        /// Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front. The other bits of the same write take effect after it.
         reset / with_reset: [1:1] bool,
         /// Interrupt when the FIFO's level falls to LOW_WATER.
         low_water_interrupt / with_low_water_interrupt: [8:8] bool,
@@ -97,7 +97,7 @@ word! {
     Status {
         /// Words the FIFO takes before it is full.
         fifo_free / with_fifo_free: [15:0] u16,
-        /// A packet is under way, or the FIFO holds words.
+        /// A packet is under way, one that still lacks words included, or the FIFO holds words.
         busy / with_busy: [16:16] bool,
         /// The buffer that VGA shows: 0 or 1.
         front_buffer / with_front_buffer: [17:17] bool,
@@ -121,7 +121,7 @@ word! {
         swap / with_swap: [1:1] bool,
         /// A fence was passed.
         fence / with_fence: [2:2] bool,
-        /// A bit of ERRORS was set.
+        /// Something that ERRORS flags happened, whether or not its flag was set already.
         error / with_error: [3:3] bool,
     }
 }
@@ -207,7 +207,7 @@ registers! {
     0x20 ERRORS Errors errors: RW WriteOneToClear Some(0), Errors::FIELDS;
     /// The tag of the last fence that the stream passed.
     0x24 FENCE Fence fence: RO ReadOnly Some(0), &[];
-    /// Triangles taken from the stream since reset, covered pixels or not; wraps.
+    /// Triangle packets taken since reset, bad ones left out, whether or not they covered a pixel; wraps.
     0x28 TRIANGLES Triangles triangles: RO ReadOnly Some(0), &[];
     /// Pixels that a triangle covered and whose depth was tested, since reset; wraps.
     0x2c PIXELS_TESTED PixelsTested pixels_tested: RO ReadOnly Some(0), &[];

@@ -109,7 +109,7 @@ impl<P: Port, W: Wait> Renderer<P, W> {
         Ok(())
     }
 
-    /// Disables the device: it finishes the packet under way and takes no other.
+    /// Disables the device: it takes no more words. A packet of which some have come waits.
     pub fn stop(&mut self) {
         self.port.write(Register::Control, 0);
     }

@@ -1,21 +1,6 @@
 //! Faults on purpose, to see their reports (feature `fault-injection`).
 
-/// What can go wrong.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fault {
-    /// A write to an address that nothing is mapped to.
-    DataAbort,
-    /// A jump to one.
-    PrefetchAbort,
-    /// A write to the program's own code.
-    WriteToCode,
-    /// An instruction that does not exist.
-    UndefinedInstruction,
-    /// A recursion without end.
-    StackOverflow,
-    /// A panic.
-    Panic,
-}
+use crate::link::Fault;
 
 /// An address in a hole of every board's map.
 const HOLE: usize = 0x5000_0000;
