@@ -10,7 +10,7 @@ package halfspace_pkg;
   localparam int unsigned SubpixelBits = 4;  // fraction bits of a screen coordinate
   localparam int unsigned DepthFractionBits = 12;  // fraction bits of depth in a packet
   localparam int unsigned DepthFar = 65535;  // far plane, and what a clear leaves
-  localparam int unsigned GuardBand = 16383;  // largest magnitude of a vertex's coordinate, sub-pixels
+  localparam int unsigned GuardBand = 8191;  // largest magnitude of a vertex's coordinate, sub-pixels
   localparam int unsigned FifoApertureWords = 1024;  // address space of the FIFO agent
 
   // Registers: byte offsets from the agent's start.
