@@ -65,8 +65,8 @@ package halfspace_pkg;
     logic [0:0] swap_interrupt;  // Interrupt when a swap took place.
     logic [0:0] low_water_interrupt;  // Interrupt when the FIFO's level falls to LOW_WATER.
     logic [5:0] unused_2;
-    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears counters, errors and interrupts; reads 1 until done. Buffers keep their pixels.
-    logic [0:0] enable;  // Takes packets from the FIFO. While 0 the FIFO fills and nothing is drawn.
+    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front. The other bits of the same write take effect after it.
+    logic [0:0] enable;  // Takes words from the FIFO. While 0 the FIFO fills and nothing is drawn; a packet of which some words have come waits for the others.
   } control_t;
 
   // FIFO space and state.
@@ -77,14 +77,14 @@ package halfspace_pkg;
     logic [0:0] swap_pending;  // A swap waits for the vertical blank.
     logic [0:0] vertical_blank;  // VGA is in its vertical blank.
     logic [0:0] front_buffer;  // The buffer that VGA shows: 0 or 1.
-    logic [0:0] busy;  // A packet is under way, or the FIFO holds words.
+    logic [0:0] busy;  // A packet is under way, one that still lacks words included, or the FIFO holds words.
     logic [15:0] fifo_free;  // Words the FIFO takes before it is full.
   } status_t;
 
   // Interrupt status. A bit is set whether or not CONTROL enables its interrupt.
   typedef struct packed {
     logic [27:0] unused_4;
-    logic [0:0] error;  // A bit of ERRORS was set.
+    logic [0:0] error;  // Something that ERRORS flags happened, whether or not its flag was set already.
     logic [0:0] fence;  // A fence was passed.
     logic [0:0] swap;  // A swap took place.
     logic [0:0] low_water;  // The FIFO's level fell to LOW_WATER.

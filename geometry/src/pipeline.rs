@@ -135,7 +135,7 @@ impl<'a> Transformed<'a> {
 fn transform_vertices(positions: &[Position], transform: &ScreenTransform, cache: &mut [ScreenVertex]) -> bool {
     let mut any_outside = false;
     for (vertex, position) in cache.iter_mut().zip(positions) {
-        if !transform.to_screen(position, vertex) {
+        if !transform.project_into(position, vertex) {
             any_outside = true;
         }
     }

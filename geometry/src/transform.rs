@@ -127,7 +127,7 @@ impl ScreenTransform {
     /// Puts a vertex on the screen, or marks it as outside if it has to be clipped; returns
     /// whether it is inside.
     #[inline(always)]
-    pub(crate) fn to_screen(&self, position: &Position, vertex: &mut ScreenVertex) -> bool {
+    pub(crate) fn project_into(&self, position: &Position, vertex: &mut ScreenVertex) -> bool {
         // A row at a time, and a branch a test: that keeps least in registers.
         let bits = position.map(|part| part.to_bits());
         let [row_x, row_y, row_z, row_w] = &self.rows;
@@ -166,7 +166,7 @@ impl ScreenTransform {
     /// Returns a vertex on the screen, or marked as outside if it has to be clipped.
     pub fn screen(&self, position: &Position) -> ScreenVertex {
         let mut vertex = ScreenVertex::default();
-        self.to_screen(position, &mut vertex);
+        self.project_into(position, &mut vertex);
         vertex
     }
 }

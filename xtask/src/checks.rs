@@ -1,0 +1,111 @@
+//! The steps of `cargo xtask test`: everything CI runs, the quick ones first.
+
+mod board;
+mod cargo;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, ensure};
+
+use crate::boot::Bootable;
+use crate::cli::Board;
+use crate::firmware_build::build_firmware;
+use crate::generated;
+use crate::paths::target_folder;
+use crate::progress::Progress;
+use crate::setup::{FirmwareToolchain, ensure_firmware_toolchain, ensure_qemu};
+
+/// What earlier steps leave for later ones.
+struct State {
+    progress: Progress,
+    toolchain: Option<FirmwareToolchain>,
+    qemu: Option<PathBuf>,
+    elf: Option<PathBuf>,
+}
+
+impl State {
+    fn toolchain(&self) -> anyhow::Result<&FirmwareToolchain> {
+        self.toolchain.as_ref().context("no Rust toolchain for the boards was found")
+    }
+
+    fn bootable(&self) -> anyhow::Result<Bootable> {
+        let elf = self.elf.clone().context("the firmware was not built")?;
+        let qemu = self.qemu.clone().context("QEMU was not found")?;
+        Ok(Bootable { elf, qemu })
+    }
+
+    /// Returns the folder for what a step's firmware says.
+    fn folder(&self, name: &str) -> PathBuf {
+        target_folder().join("test").join(name)
+    }
+}
+
+/// A step: what it checks, and the check.
+struct Check {
+    name: &'static str,
+    run: fn(&mut State) -> anyhow::Result<()>,
+}
+
+const CHECKS: &[Check] = &[
+    Check { name: "the source is formatted", run: |_| cargo::formatting() },
+    Check { name: "clippy finds nothing", run: |_| cargo::clippy() },
+    Check { name: "the tests of every crate pass on this computer", run: |_| cargo::tests() },
+    Check { name: "the generated files are fresh", run: |_| generated_files() },
+    Check { name: "this computer has a Rust toolchain for the boards", run: toolchain },
+    Check { name: "this computer has QEMU", run: qemu },
+    Check { name: "the firmware for de1-soc builds", run: |state| build(state, Board::De1Soc) },
+    Check { name: "the firmware for vexpress-a9 builds", run: |state| build(state, Board::VexpressA9) },
+    Check { name: "QEMU is handled well", run: |_| cargo::qemu_tests() },
+    Check {
+        name: "the demonstration on QEMU equals the golden one and this computer's own",
+        run: board::demonstration,
+    },
+    Check { name: "a serial line that loses bytes costs what it carried, no more", run: board::lossy_line },
+    Check { name: "the firmware reports faults and panics, and ends", run: board::faults },
+];
+
+/// Runs all steps; stops at the first that fails.
+///
+/// # Errors
+/// The step that failed, and why.
+pub fn run() -> anyhow::Result<()> {
+    let mut state = State { progress: Progress::new(), toolchain: None, qemu: None, elf: None };
+    let started = Instant::now();
+    for (index, check) in CHECKS.iter().enumerate() {
+        let step = Instant::now();
+        println!("[{}/{}] {}", index + 1, CHECKS.len(), check.name);
+        if let Err(error) = (check.run)(&mut state) {
+            println!("{index} passed, 1 failed, {} not run", CHECKS.len() - index - 1);
+            return Err(error.context(format!("step {} failed ({})", index + 1, check.name)));
+        }
+        println!("        passed in {:.1} s", step.elapsed().as_secs_f64());
+    }
+    println!("{} passed, 0 failed ({:.0} s)", CHECKS.len(), started.elapsed().as_secs_f64());
+    Ok(())
+}
+
+fn generated_files() -> anyhow::Result<()> {
+    let files = generated::all()?;
+    let stale: Vec<&str> = files.iter().filter(|file| !file.is_fresh()).map(|file| file.path).collect();
+    ensure!(stale.is_empty(), "{} stale: run `cargo xtask generate` and commit the result", stale.join(", "));
+    Ok(())
+}
+
+fn toolchain(state: &mut State) -> anyhow::Result<()> {
+    state.toolchain = Some(ensure_firmware_toolchain(&state.progress)?);
+    Ok(())
+}
+
+fn qemu(state: &mut State) -> anyhow::Result<()> {
+    state.qemu = Some(ensure_qemu(&state.progress)?);
+    Ok(())
+}
+
+fn build(state: &mut State, board: Board) -> anyhow::Result<()> {
+    let elf = build_firmware(board, &[], state.toolchain()?, &state.progress)?;
+    if board.runs_in_qemu() {
+        state.elf = Some(elf);
+    }
+    Ok(())
+}

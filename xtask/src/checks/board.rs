@@ -1,0 +1,101 @@
+//! Steps that run the firmware in QEMU.
+
+use std::fs;
+use std::time::Duration;
+
+use anyhow::{Context, ensure};
+use controls::DualShock3Report;
+use controls::serial::{self, FRAME_SIZE_MAXIMUM, kind};
+use firmware::link::Fault;
+
+use super::State;
+use crate::boot::Bootable;
+use crate::cli::Board;
+use crate::demo;
+use crate::firmware_build::build_firmware;
+use crate::golden::{self, Golden};
+use crate::machine::{Link, with_host};
+use crate::paths::TemporaryFolder;
+use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
+use crate::session;
+
+/// Longest time until a fault's report; a loaded machine is slow.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// How the firmware ends after a fault.
+const FAILED: i32 = 101;
+
+/// The recorded session gives the same frames in QEMU, in this process, and in the golden file.
+pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
+    let parts = session::demo()?;
+    let golden = Golden::read()?
+        .with_context(|| format!("{} is missing: write it with `cargo xtask generate --golden`", golden::PATH))?;
+    let remedy = "if the change is wanted, look at the pictures of `cargo xtask demo`, then run \
+                  `cargo xtask generate --golden` and say why in the commit";
+    let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
+    golden.check(&Golden::from(&here.report)).with_context(|| format!("on this computer; {remedy}"))?;
+    let mut machine = state.bootable()?.start(&state.folder("demo"))?;
+    let there = demo::play(&mut machine, &parts, &state.progress)?;
+    machine.quit()?;
+    golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")?;
+    if let Some(found) = there.report.torus_instructions() {
+        let verdict = verdict(found, INSTRUCTIONS_PER_TRIANGLE_MAX);
+        println!("{found:.1} instructions per triangle, bar {INSTRUCTIONS_PER_TRIANGLE_MAX}: {verdict}");
+        ensure!(found <= INSTRUCTIONS_PER_TRIANGLE_MAX, "the torus costs {found:.1} instructions per triangle");
+    }
+    Ok(())
+}
+
+/// Every byte of a report is lost once; the firmware drops what it spoils and goes on.
+pub(super) fn lossy_line(state: &mut State) -> anyhow::Result<()> {
+    let mut machine = state.bootable()?.start(&state.folder("lossy-line"))?;
+    let mut buffer = [0; FRAME_SIZE_MAXIMUM];
+    let report = DualShock3Report::default().to_bytes();
+    let frame = serial::encode(kind::DUALSHOCK3, &report, &mut buffer).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let mut link = Link::new(&mut machine);
+    link.begin(0)?;
+    let level = link.step()?;
+    for lost in 0..frame.len() {
+        link.send_raw(&[&frame[..lost], &frame[lost + 1..]].concat())?;
+        // The next message is whole, and must be understood.
+        let drawn = link.step().with_context(|| format!("after a report without its byte {lost}"))?;
+        let expected = lost as u32 + 1;
+        ensure!(drawn.index == expected, "frame {} came instead of frame {expected}", drawn.index);
+        ensure!(drawn.checksum == level.checksum, "a report without its byte {lost} moved the plate");
+    }
+    // Noise, and a frame that never ends.
+    link.send_raw(&(0..=255).cycle().take(1_000).collect::<Vec<u8>>())?;
+    link.step().context("after 1,000 bytes of noise")?;
+    link.send_raw(&[0xff; 1_000])?;
+    link.step().context("after a frame of 1,000 bytes")?;
+    let complaints = machine.qemu().console().lines().iter().filter(|line| line.starts_with("link: ")).count();
+    ensure!(complaints >= frame.len() / 2, "only {complaints} damaged frames were told on the console");
+    machine.quit()
+}
+
+/// Every kind of fault is reported on the console and ends QEMU with the status of a failure.
+pub(super) fn faults(state: &mut State) -> anyhow::Result<()> {
+    let elf = build_firmware(Board::VexpressA9, &["fault-injection"], state.toolchain()?, &state.progress)?;
+    // A copy, as the next build of the board overwrites the file.
+    let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;
+    let copy = folder.path().join("fault-injection.elf");
+    fs::copy(&elf, &copy).with_context(|| format!("cannot copy {}", elf.display()))?;
+    let bootable = Bootable { elf: copy, ..state.bootable()? };
+    for (fault, report) in [
+        (Fault::DataAbort, "data abort: write to 0x50000000"),
+        (Fault::PrefetchAbort, "prefetch abort: fetch from 0x50000000"),
+        (Fault::WriteToCode, "data abort: write to 0x6"),
+        (Fault::UndefinedInstruction, "undefined instruction at 0x6"),
+        (Fault::StackOverflow, "data abort: "),
+        (Fault::Panic, "panic at "),
+    ] {
+        let mut machine = bootable.start(&state.folder("faults"))?;
+        Link::new(&mut machine).fault(fault)?;
+        let qemu = machine.qemu();
+        let line =
+            qemu.wait_for_line(&format!("the report of {fault:?}"), PATIENCE, |line| line.starts_with(report))?;
+        let status = qemu.wait_for_exit(PATIENCE)?;
+        ensure!(status.code() == Some(FAILED), "after {fault:?} QEMU ended with {status} instead of status {FAILED}");
+        println!("{line}");
+    }
+    Ok(())
+}

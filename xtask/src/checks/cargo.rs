@@ -1,0 +1,58 @@
+//! Steps that are cargo's.
+
+use std::env;
+use std::process::Command;
+
+use anyhow::{Context, bail};
+
+use crate::paths::workspace_root;
+
+pub(super) fn formatting() -> anyhow::Result<()> {
+    component("rustfmt", &["fmt", "--version"])?;
+    run(&["fmt", "--all", "--check"], "run `cargo fmt --all`")
+}
+
+pub(super) fn clippy() -> anyhow::Result<()> {
+    component("clippy", &["clippy", "--version"])?;
+    run(
+        &["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"],
+        "mend what clippy names above; most it can mend itself with `cargo clippy --fix`",
+    )
+}
+
+pub(super) fn tests() -> anyhow::Result<()> {
+    run(&["test", "--workspace"], "the failed test is named above; `cargo test NAME` runs it alone")
+}
+
+/// The tests that start a QEMU of their own.
+pub(super) fn qemu_tests() -> anyhow::Result<()> {
+    run(
+        &["test", "--quiet", "--package", "xtask", "--lib", "--", "--ignored", "qemu::tests"],
+        "the failed test is named above",
+    )
+}
+
+/// Runs cargo in the workspace, its words on this terminal.
+fn run(arguments: &[&str], remedy: &str) -> anyhow::Result<()> {
+    let status = cargo(arguments).status().context("cannot start cargo: is Rust installed?")?;
+    if !status.success() {
+        bail!("`cargo {}` failed ({status}): {remedy}", arguments.join(" "));
+    }
+    Ok(())
+}
+
+/// Finds out whether a part of the Rust distribution is there.
+fn component(name: &str, version: &[&str]) -> anyhow::Result<()> {
+    let output = cargo(version).output().context("cannot start cargo: is Rust installed?")?;
+    if !output.status.success() {
+        bail!("{name} is missing: install it with `rustup component add {name}`");
+    }
+    Ok(())
+}
+
+fn cargo(arguments: &[&str]) -> Command {
+    // The cargo that runs this program, if one does.
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments).current_dir(workspace_root());
+    command
+}

@@ -1,0 +1,352 @@
+//! The command line: which commands there are, their flags, and what `--help` says.
+
+use std::fmt::{self, Write as _};
+use std::path::PathBuf;
+
+use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+
+use crate::commands;
+
+/// The commands as `--help` groups them, in the order a newcomer meets them.
+const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
+    ("See it work", &["demo", "run"]),
+    ("Draw a picture on this computer", &["render", "replay", "decode"]),
+    ("Check and measure", &["test", "bench"]),
+    ("Keep generated files fresh", &["generate"]),
+];
+
+const EXAMPLES: &str = "\
+Examples:
+  cargo xtask demo                                  boot the firmware, save what it draws
+  cargo xtask run                                   the same, live in a window
+  cargo xtask render assets/icosphere.obj -o sphere.png --rotate 20,30,0
+  cargo xtask demo --help                           all flags of one command
+
+Results go to target/<command>/ unless -o or --output names another place.
+What is missing (Rust target, QEMU) is installed where that needs no question;
+otherwise the command to type is printed.";
+
+/// Runs every task of the Halfspace project.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", disable_help_subcommand = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Task,
+}
+
+/// One task.
+#[derive(Debug, Subcommand)]
+pub enum Task {
+    /// Boots the firmware in QEMU, plays a recorded controller session, saves the frames
+    ///
+    /// Leaves in target/demo: a PNG file for each frame, demo.png (all of them as an animation,
+    /// which browsers play), report.json, and what the firmware said in console.txt and log.txt.
+    Demo(DemoArguments),
+    /// Runs everything that CI runs
+    Test(TestArguments),
+    /// Runs the firmware live: a window and the keyboard, or --headless
+    ///
+    /// With --headless the recorded session of the demo moves the scenes, from its first frame
+    /// on, and again from there when it is over; every run gives the same frames.
+    Run(RunArguments),
+    /// Draws an OBJ model to a PNG file
+    ///
+    /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
+    /// faces go counter-clockwise. The view is from +z, fitted to the model, field of view 45°;
+    /// the light comes from above on the left, in front. With --mvp the matrix is used as it is,
+    /// and the light shines in the model's own space.
+    Render(RenderArguments),
+    /// Draws a file of packet words to a PNG file
+    ///
+    /// Shows the front buffer or, if the stream has no swap, the back buffer. Bad packets are
+    /// skipped with a warning. A stream that ends inside a packet is an error: nothing is written.
+    Replay(ReplayArguments),
+    /// Prints a file of packet words as text
+    ///
+    /// A line of JSON for each packet; `word` is where it starts. A bad packet has the kind `bad`
+    /// and a reason. A stream that ends inside a packet is an error, after the lines before it.
+    Decode(DecodeArguments),
+    /// Measures the cost per vertex, triangle and pixel
+    ///
+    /// Counts the Cortex-A9's instructions in QEMU, and times geometry and software model on this
+    /// computer, as an optimised build: median of several runs.
+    Bench(BenchArguments),
+    /// Writes the files that are generated and committed
+    Generate(GenerateArguments),
+}
+
+/// A board the firmware runs on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Board {
+    /// ARM Versatile Express with a Cortex-A9, as QEMU models it
+    VexpressA9,
+    /// Terasic DE1-SoC: builds, but nothing here can run it yet
+    De1Soc,
+}
+
+impl Board {
+    /// All boards.
+    pub const ALL: [Self; 2] = [Self::VexpressA9, Self::De1Soc];
+
+    /// Returns whether QEMU has the board.
+    pub const fn runs_in_qemu(self) -> bool {
+        matches!(self, Self::VexpressA9)
+    }
+
+    /// Returns the board's name: the firmware's feature and binary have the same.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::VexpressA9 => "vexpress-a9",
+            Self::De1Soc => "de1-soc",
+        }
+    }
+}
+
+impl fmt::Display for Board {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+/// Flags of `demo`.
+#[derive(Debug, Args)]
+pub struct DemoArguments {
+    /// Board to run on
+    #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
+    pub board: Board,
+}
+
+/// Flags of `test`: none.
+#[derive(Debug, Args)]
+pub struct TestArguments {}
+
+/// Flags of `run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// Board to run on
+    #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
+    pub board: Board,
+    /// Opens no window; stops after --frames and leaves them in --output
+    #[arg(long, requires = "frames", requires = "output")]
+    pub headless: bool,
+    /// Number of frames to draw (with --headless)
+    #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames: Option<u32>,
+    /// Folder for the frames (with --headless)
+    #[arg(long, value_name = "DIR", requires = "headless")]
+    pub output: Option<PathBuf>,
+}
+
+/// Flags of `render`.
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    /// Wavefront OBJ file
+    #[arg(value_name = "MODEL.obj")]
+    pub model: PathBuf,
+    /// PNG file to write
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: PathBuf,
+    /// Turns the model: degrees about the x axis, then y, then z; the axes stay in place
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_rotation)]
+    pub rotate: Option<Rotation>,
+    /// Model-view-projection matrix instead of the fitted view: a file of 16 numbers, row by row
+    #[arg(long, value_name = "FILE", conflicts_with = "rotate")]
+    pub mvp: Option<PathBuf>,
+    /// Draws triangles that face away as well
+    #[arg(long)]
+    pub two_sided: bool,
+    /// Writes the packet words as well, for replay and decode: 32 bits each, little-endian
+    #[arg(long, value_name = "FILE")]
+    pub dump: Option<PathBuf>,
+    /// Writes the drawn triangles as text, each a line: x y depth of three corners (sixteenths of
+    /// a pixel), then red green blue
+    #[arg(long, value_name = "FILE")]
+    pub triangles: Option<PathBuf>,
+    /// Writes the depth buffer as a 16-bit PGM file
+    #[arg(long, value_name = "FILE")]
+    pub depth: Option<PathBuf>,
+}
+
+/// Angles about the x, y and z axis, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation {
+    /// Degrees about the x, y and z axis, each finite.
+    pub degrees: [f64; 3],
+}
+
+/// Flags of `replay`.
+#[derive(Debug, Args)]
+pub struct ReplayArguments {
+    /// Packet words, as render --dump writes them
+    #[arg(value_name = "WORDS")]
+    pub words: PathBuf,
+    /// PNG file to write
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: PathBuf,
+    /// Writes the depth buffer as a 16-bit PGM file
+    #[arg(long, value_name = "FILE")]
+    pub depth: Option<PathBuf>,
+}
+
+/// Flags of `decode`.
+#[derive(Debug, Args)]
+pub struct DecodeArguments {
+    /// Packet words, as render --dump writes them
+    #[arg(value_name = "WORDS")]
+    pub words: PathBuf,
+}
+
+/// Flags of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchArguments {
+    /// Prints JSON instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Flags of `generate`.
+#[derive(Debug, Args)]
+pub struct GenerateArguments {
+    /// Writes nothing; fails when a file is stale
+    #[arg(long)]
+    pub check: bool,
+    /// Writes the demo's golden checksums as well, from a run on this computer: look at its
+    /// pictures first
+    #[arg(long, conflicts_with = "check")]
+    pub golden: bool,
+}
+
+/// Parses the command line and runs the task.
+///
+/// Wrong flags and `--help` print their text and end the process, as clap does.
+///
+/// # Errors
+///
+/// Whatever the task reports.
+pub fn run() -> anyhow::Result<()> {
+    let matches = command().get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+    match &cli.command {
+        Task::Demo(arguments) => commands::demo::run(arguments),
+        Task::Test(arguments) => commands::test::run(arguments),
+        Task::Run(arguments) => commands::run::run(arguments),
+        Task::Render(arguments) => commands::render::run(arguments),
+        Task::Replay(arguments) => commands::replay::run(arguments),
+        Task::Decode(arguments) => commands::decode::run(arguments),
+        Task::Bench(arguments) => commands::bench::run(arguments),
+        Task::Generate(arguments) => commands::generate::run(arguments),
+    }
+}
+
+/// Returns clap's description of the command line, with the commands grouped.
+fn command() -> Command {
+    let command = Cli::command();
+    let groups = grouped_commands(&command);
+    command.help_template(format!("{{about}}\n\n{{usage-heading}} {{usage}}\n\n{groups}{EXAMPLES}\n"))
+}
+
+/// Lists the commands under their groups' headings, each with its one line.
+fn grouped_commands(command: &Command) -> String {
+    let mut text = String::new();
+    for (heading, names) in COMMAND_GROUPS {
+        let _ = writeln!(text, "{heading}:");
+        for name in names {
+            let about =
+                command.find_subcommand(name).and_then(Command::get_about).map(ToString::to_string).unwrap_or_default();
+            let _ = writeln!(text, "  {name:<10}{about}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Reads `X,Y,Z` as three finite angles in degrees.
+fn parse_rotation(text: &str) -> Result<Rotation, String> {
+    let remedy = "give three numbers of degrees with commas between, like 20,-30,0";
+    let parts: Vec<&str> = text.split(',').collect();
+    let [x, y, z] = parts.as_slice() else {
+        return Err(format!("{} numbers instead of 3: {remedy}", parts.len()));
+    };
+    let mut degrees = [0.0; 3];
+    for (angle, part) in degrees.iter_mut().zip([x, y, z]) {
+        *angle = match part.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => number,
+            _ => return Err(format!("`{part}` is no angle: {remedy}")),
+        };
+    }
+    Ok(Rotation { degrees })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(line: &str) -> Result<Cli, clap::Error> {
+        Cli::try_parse_from(std::iter::once("xtask").chain(line.split_whitespace()))
+    }
+
+    #[test]
+    fn clap_finds_no_fault_in_the_definition() {
+        command().debug_assert();
+    }
+
+    #[test]
+    fn help_lists_every_command_once_with_its_line() {
+        let help = command().render_help().to_string();
+        for subcommand in Cli::command().get_subcommands() {
+            let name = subcommand.get_name();
+            let about = subcommand.get_about().expect("every command says what it does").to_string();
+            let line = format!("  {name:<10}{about}\n");
+            assert_eq!(help.matches(&line).count(), 1, "{name} in:\n{help}");
+            assert!(line.len() <= 96, "{name}'s line wraps on a usual terminal");
+        }
+        assert!(help.contains("Usage: cargo xtask"), "{help}");
+    }
+
+    #[test]
+    fn render_takes_all_its_flags() {
+        let line = "render m.obj -o o.png --rotate -20,30.5,0 --two-sided --dump w --triangles t --depth d";
+        let Task::Render(arguments) = parse(line).expect("a valid line").command else {
+            panic!("render is render");
+        };
+        assert_eq!(arguments.rotate, Some(Rotation { degrees: [-20.0, 30.5, 0.0] }));
+        assert!(arguments.two_sided && arguments.mvp.is_none());
+        assert!(parse("render m.obj -o o.png --rotate 1,2,3 --mvp f").is_err());
+        assert!(parse("render m.obj").is_err());
+    }
+
+    #[test]
+    fn a_wrong_rotation_names_the_remedy() {
+        for wrong in ["1,2", "1,2,x", "1,2,inf", "", "1,2,3,4"] {
+            let message = parse_rotation(wrong).expect_err(wrong);
+            assert!(message.contains("like 20,-30,0"), "{message}");
+        }
+    }
+
+    #[test]
+    fn headless_wants_frames_and_a_folder() {
+        assert!(parse("run").is_ok());
+        assert!(parse("run --headless --frames 3 --output d").is_ok());
+        assert!(parse("run --headless").is_err());
+        assert!(parse("run --frames 3").is_err());
+        assert!(parse("run --headless --frames 0 --output d").is_err());
+    }
+
+    #[test]
+    fn the_other_commands_parse() {
+        for line in [
+            "demo",
+            "demo --board vexpress-a9",
+            "test",
+            "replay w -o o.png --depth d",
+            "decode w",
+            "bench --json",
+            "generate --check",
+            "generate --golden",
+        ] {
+            assert!(parse(line).is_ok(), "{line}");
+        }
+        assert!(parse("demo --board c64").is_err());
+    }
+}

@@ -1,0 +1,10 @@
+//! One file per command; each has a `run` that takes the command's flags.
+
+pub mod bench;
+pub mod decode;
+pub mod demo;
+pub mod generate;
+pub mod render;
+pub mod replay;
+pub mod run;
+pub mod test;

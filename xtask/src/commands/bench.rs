@@ -1,0 +1,75 @@
+//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel.
+
+use std::env;
+use std::process::Command;
+
+use anyhow::{Context, ensure};
+
+use crate::boot::Bootable;
+use crate::cli::{BenchArguments, Board};
+use crate::measure::{self, Measurement};
+use crate::paths::{target_folder, workspace_root};
+use crate::progress::Progress;
+use crate::report::verdict;
+use crate::session;
+use crate::table::{Column, Table};
+
+/// Measures.
+///
+/// # Errors
+///
+/// When something is missing that cannot be installed, or the firmware does not build or run.
+pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
+    if cfg!(debug_assertions) {
+        return run_optimised(arguments);
+    }
+    let progress = Progress::new();
+    let parts = session::demo()?;
+    let bootable = Bootable::prepare(Board::VexpressA9, &progress)?;
+    let mut machine = bootable.start(&target_folder().join("bench"))?;
+    let step = progress.step("counting instructions in QEMU");
+    let mut measurements = measure::on_board(&mut machine, &parts)?;
+    machine.quit()?;
+    step.done();
+    let step = progress.step("measuring on this computer");
+    measurements.extend(measure::on_host()?);
+    step.done();
+    if arguments.json {
+        println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
+    } else {
+        print!("{}", table(&measurements));
+    }
+    Ok(())
+}
+
+/// Runs this command again as the profile `measure` builds it: times with overflow checks say little.
+fn run_optimised(arguments: &BenchArguments) -> anyhow::Result<()> {
+    let step = Progress::new().step("building xtask optimised, which takes a minute the first time");
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(workspace_root()).args(["build", "--quiet", "--profile", "measure", "--package", "xtask"]);
+    let status = cargo.status().context("cannot start cargo: is Rust installed?")?;
+    ensure!(status.success(), "xtask does not build optimised ({status}); cargo says why above");
+    step.done();
+    let program = target_folder().join("measure/xtask");
+    let mut optimised = Command::new(&program);
+    optimised.arg("bench").args(arguments.json.then_some("--json"));
+    let status = optimised.status().with_context(|| format!("cannot start {}", program.display()))?;
+    ensure!(status.success(), "the optimised build ended with {status}");
+    Ok(())
+}
+
+fn table(measurements: &[Measurement]) -> Table {
+    let mut table = Table::new([
+        Column::text("what"),
+        Column::number("value"),
+        Column::text("unit"),
+        Column::number("bar"),
+        Column::text(""),
+    ]);
+    for it in measurements {
+        let bar = it.bar.map(|bar| format!("{bar}")).unwrap_or_default();
+        let verdict = it.bar.map(|bar| verdict(it.value, bar)).unwrap_or_default();
+        table.row([it.name, &format!("{:.2}", it.value), it.unit, &bar, verdict]);
+    }
+    table
+}

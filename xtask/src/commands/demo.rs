@@ -1,0 +1,90 @@
+//! `cargo xtask demo`: boots the firmware in QEMU and saves the frames of a recorded session.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use anyhow::Context;
+
+use crate::boot::{Bootable, check_runs};
+use crate::cli::DemoArguments;
+use crate::demo::{self, Played};
+use crate::golden::{self, Golden};
+use crate::paths::{for_display, target_folder};
+use crate::picture::{Picture, write_animated_png, write_png};
+use crate::progress::Progress;
+use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, Report, verdict};
+use crate::session;
+
+/// How long the animation shows a frame.
+const FRAME_TIME: Duration = Duration::from_millis(50);
+
+/// Runs the demonstration.
+///
+/// # Errors
+///
+/// When something is missing that cannot be installed, the firmware does not build or run, its
+/// screen shows something else than it drew, or the results cannot be written.
+pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
+    let started = Instant::now();
+    check_runs(arguments.board)?;
+    let progress = Progress::new();
+    let parts = session::demo()?;
+    let bootable = Bootable::prepare(arguments.board, &progress)?;
+    let folder = target_folder().join("demo");
+    empty(&folder)?;
+    let step = progress.step(format!("booting {} in QEMU", arguments.board));
+    let mut machine = bootable.start(&folder)?;
+    step.done();
+    let played = demo::play(&mut machine, &parts, &progress)?;
+    machine.quit()?;
+    let report = save(played, &folder, &progress)?;
+
+    println!("{}", report.table());
+    if let Some(found) = report.torus_instructions() {
+        println!(
+            "bar: at most {INSTRUCTIONS_PER_TRIANGLE_MAX} instructions per triangle on the torus: {found:.1}, {}",
+            verdict(found, INSTRUCTIONS_PER_TRIANGLE_MAX)
+        );
+    }
+    println!("{}", golden_line(&report)?);
+    let shown = for_display(&folder).display();
+    println!("open {shown}/demo.png in a browser, which plays it as an animation;");
+    println!("single frames are {shown}/<scene>-NNN.png, numbers report.json, messages console.txt and log.txt");
+    println!("done in {:.1} s", started.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// Writes pictures and report.
+fn save(played: Played, folder: &Path, progress: &Progress) -> anyhow::Result<Report> {
+    let step = progress.step(format!("writing {} pictures", played.pictures.len()));
+    for (scene, index, picture) in &played.pictures {
+        step.update(&format!("{scene} {index}"));
+        write_png(&folder.join(format!("{scene}-{index:03}.png")), picture)?;
+    }
+    step.update("the animation");
+    let pictures: Vec<Picture> = played.pictures.into_iter().map(|(_, _, picture)| picture).collect();
+    write_animated_png(&folder.join("demo.png"), &pictures, FRAME_TIME)?;
+    played.report.write(&folder.join("report.json"))?;
+    step.done();
+    Ok(played.report)
+}
+
+/// Compares a run with the golden one.
+fn golden_line(report: &Report) -> anyhow::Result<String> {
+    let Some(golden) = Golden::read()? else {
+        return Ok(format!("nothing to compare the frames with: there is no {}", golden::PATH));
+    };
+    Ok(match golden.check(&Golden::from(report)) {
+        Ok(()) => "every frame is equal to the golden run".to_string(),
+        Err(difference) => format!("WARNING: the frames differ from the golden run: {difference}"),
+    })
+}
+
+/// Makes a folder empty: frames of an earlier, longer run must not stay.
+pub(super) fn empty(folder: &Path) -> anyhow::Result<()> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).with_context(|| format!("cannot empty the folder {}", folder.display()))?;
+    }
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))
+}

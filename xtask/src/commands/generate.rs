@@ -1,0 +1,55 @@
+//! `cargo xtask generate`: writes the files that come from one source and are committed.
+
+use crate::cli::GenerateArguments;
+use crate::demo;
+use crate::generated;
+use crate::golden::{self, Golden};
+use crate::machine::with_host;
+use crate::progress::Progress;
+use crate::session;
+
+/// Writes the generated files, or with `--check` only says which are stale.
+///
+/// # Errors
+///
+/// When a source cannot be read, a file cannot be written, or with `--check` one is stale.
+pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
+    let mut stale = Vec::new();
+    for file in generated::all()? {
+        let fresh = file.is_fresh();
+        let state = match (fresh, arguments.check) {
+            (true, _) => "fresh  ",
+            (false, true) => "stale  ",
+            (false, false) => "written",
+        };
+        println!("{state} {}", file.path);
+        match (fresh, arguments.check) {
+            (true, _) => {}
+            (false, true) => stale.push(file.path),
+            (false, false) => file.write()?,
+        }
+    }
+    anyhow::ensure!(stale.is_empty(), "{} stale: run `cargo xtask generate` and commit the result", stale.join(", "));
+    if arguments.golden { write_golden() } else { Ok(()) }
+}
+
+/// Writes the checksums that the demonstration's frames must have from now on.
+fn write_golden() -> anyhow::Result<()> {
+    let parts = session::demo()?;
+    let played = with_host(|machine| demo::play(machine, &parts, &Progress::new()))?;
+    let new = Golden::from(&played.report);
+    match Golden::read() {
+        Ok(Some(old)) if old == new => println!("fresh   {}", golden::PATH),
+        old => {
+            new.write()?;
+            println!("written {}", golden::PATH);
+            if let Ok(Some(old)) = old
+                && let Err(difference) = old.check(&new)
+            {
+                println!("        first difference: {difference}");
+            }
+            println!("look at the pictures of `cargo xtask demo` before you commit it, and say in the commit why");
+        }
+    }
+    Ok(())
+}

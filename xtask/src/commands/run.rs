@@ -1,0 +1,113 @@
+//! `cargo xtask run`: the firmware live, in a window or headless.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use anyhow::{Context, ensure};
+
+use crate::boot::{Bootable, check_runs, start_with_log};
+use crate::cli::RunArguments;
+use crate::machine::Link;
+use crate::paths::{for_display, target_folder};
+use crate::picture::write_png;
+use crate::progress::Progress;
+use crate::qemu::QemuOptions;
+use crate::session::{self, ScenePart};
+use crate::setup::ensure_qemu_window;
+
+/// Longest time that a window stays open: as good as for ever.
+const WINDOW_LIMIT: Duration = Duration::from_secs(365 * 24 * 3_600);
+
+/// Runs the firmware.
+///
+/// # Errors
+///
+/// When the board cannot run here, something is missing that cannot be installed, the firmware
+/// does not build or run, or a frame cannot be written.
+pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
+    check_runs(arguments.board)?;
+    match (arguments.headless, arguments.frames, &arguments.output) {
+        (true, Some(frames), Some(output)) => headless(arguments, frames, output),
+        _ => in_a_window(arguments),
+    }
+}
+
+/// Plays the recorded session, from its beginning and again if need be, and saves each frame.
+fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Result<()> {
+    let progress = Progress::new();
+    let parts = session::demo()?;
+    fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
+    let bootable = Bootable::prepare(arguments.board, &progress)?;
+    let mut machine = bootable.start(&target_folder().join("run"))?;
+    let step = progress.step(format!("drawing {count} frames"));
+    let mut drawn = 0;
+    let mut link = Link::new(&mut machine);
+    link.identify()?;
+    for part in first_frames(&parts, count as usize) {
+        session::play(&mut link, &part, |frame| {
+            write_png(&output.join(format!("frame-{drawn:03}.png")), &frame.picture)?;
+            drawn += 1;
+            step.update(&format!("{drawn}"));
+            Ok(())
+        })?;
+    }
+    step.done();
+    machine.quit()?;
+    println!("wrote {drawn} frames to {}", for_display(output).display());
+    Ok(())
+}
+
+/// Returns a session that is repeated and cut to `count` frames.
+fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
+    let mut left = count;
+    let mut taken = Vec::new();
+    for part in parts.iter().filter(|part| !part.frames.is_empty()).cycle() {
+        if left == 0 {
+            break;
+        }
+        let frames = part.frames[..part.frames.len().min(left)].to_vec();
+        left -= frames.len();
+        taken.push(ScenePart { scene: part.scene, frames });
+    }
+    taken
+}
+
+fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
+    let progress = Progress::new();
+    let (qemu, display) = ensure_qemu_window(&progress)?;
+    let bootable = Bootable::prepare(arguments.board, &progress)?;
+    let folder = target_folder().join("run");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let mut options = QemuOptions::new(qemu, &bootable.elf);
+    options.display = display;
+    options.console_file = Some(folder.join("console.txt"));
+    options.console_on_stdout = true;
+    let (mut qemu, log) = start_with_log(&options, &folder)?;
+    qemu.resume()?;
+    println!("click into the window, then use the keyboard; close the window to end");
+    let status = qemu.wait_for_exit(WINDOW_LIMIT)?;
+    drop(qemu);
+    log.map(crate::log_decoder::LogDecoder::finish);
+    ensure!(status.success(), "the firmware ended with {status}; its last words stand above");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use firmware::scene::Scene;
+
+    #[test]
+    fn a_session_is_repeated_and_cut() {
+        let part = |scene, count| ScenePart { scene, frames: vec![None; count] };
+        let parts = [part(Scene::Plate, 3), part(Scene::Torus, 0), part(Scene::Tunnel, 2)];
+        let lengths = |count| {
+            let taken = first_frames(&parts, count);
+            taken.iter().map(|part| (part.scene.name(), part.frames.len())).collect::<Vec<_>>()
+        };
+        assert_eq!(lengths(2), [("plate", 2)]);
+        assert_eq!(lengths(7), [("plate", 3), ("tunnel", 2), ("plate", 2)]);
+        assert_eq!(first_frames(&[], 7), []);
+    }
+}

@@ -1,0 +1,13 @@
+//! `cargo xtask test`: everything CI runs, in one command.
+
+use crate::checks;
+use crate::cli::TestArguments;
+
+/// Runs all checks.
+///
+/// # Errors
+///
+/// The first check that fails, and what to do about it.
+pub fn run(_arguments: &TestArguments) -> anyhow::Result<()> {
+    checks::run()
+}

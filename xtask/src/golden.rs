@@ -1,0 +1,122 @@
+//! The checksums that the demonstration's frames must have, on every machine.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, bail};
+use serde::{Deserialize, Serialize};
+
+use crate::paths::workspace_root;
+use crate::report::Report;
+
+/// Where the file lies in the workspace.
+pub const PATH: &str = "host-tests/golden/demo.json";
+
+/// Frame checksums of each scene.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Golden {
+    /// In the order in which they are played.
+    pub scenes: Vec<GoldenScene>,
+}
+
+/// Frame checksums of a scene.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GoldenScene {
+    /// The scene.
+    pub name: String,
+    /// One for each frame, as in the report.
+    pub frame_checksums: Vec<String>,
+}
+
+impl From<&Report> for Golden {
+    fn from(report: &Report) -> Self {
+        let scenes = report
+            .scenes
+            .iter()
+            .map(|scene| GoldenScene { name: scene.name.clone(), frame_checksums: scene.frame_checksums.clone() });
+        Self { scenes: scenes.collect() }
+    }
+}
+
+impl Golden {
+    /// Reads the file; `None` when there is none yet.
+    ///
+    /// # Errors
+    /// When it is there and cannot be read.
+    pub fn read() -> anyhow::Result<Option<Self>> {
+        let path = path();
+        if !path.exists() {
+            return Ok(None);
+        }
+        let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {PATH}"))?;
+        serde_json::from_str(&text).map(Some).with_context(|| format!("{PATH} is malformed"))
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn write(&self) -> anyhow::Result<()> {
+        let text = serde_json::to_string_pretty(self).context("cannot put the checksums into JSON")? + "\n";
+        let path = path();
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder of {PATH}"))?;
+        }
+        std::fs::write(path, text).with_context(|| format!("cannot write {PATH}"))
+    }
+
+    /// Checks that a run has these frames.
+    ///
+    /// # Errors
+    /// The first frame that differs.
+    pub fn check(&self, run: &Self) -> anyhow::Result<()> {
+        for (expected, found) in self.scenes.iter().zip(&run.scenes) {
+            let (name, frames) = (&expected.name, &expected.frame_checksums);
+            if *name != found.name || frames.len() != found.frame_checksums.len() {
+                let count = found.frame_checksums.len();
+                bail!("{} has {count} frames where {PATH} has {name} with {}", found.name, frames.len());
+            }
+            for (index, (expected, found)) in frames.iter().zip(&found.frame_checksums).enumerate() {
+                if expected != found {
+                    bail!("frame {index} of scene {name} has checksum {found}, {PATH} has {expected}");
+                }
+            }
+        }
+        if self.scenes.len() != run.scenes.len() {
+            bail!("{} scenes were played, {PATH} has {}", run.scenes.len(), self.scenes.len());
+        }
+        Ok(())
+    }
+}
+
+fn path() -> PathBuf {
+    workspace_root().join(PATH)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn golden(scenes: &[(&str, &[&str])]) -> Golden {
+        let scene = |(name, frames): &(&str, &[&str])| GoldenScene {
+            name: name.to_string(),
+            frame_checksums: frames.iter().map(ToString::to_string).collect(),
+        };
+        Golden { scenes: scenes.iter().map(scene).collect() }
+    }
+
+    #[test]
+    fn the_first_difference_is_named() {
+        let one = golden(&[("plate", &["0x1", "0x2"]), ("torus", &["0x3"])]);
+        let message = |scenes: &[(&str, &[&str])]| one.check(&golden(scenes)).map_err(|error| error.to_string());
+        assert_eq!(message(&[("plate", &["0x1", "0x2"]), ("torus", &["0x3"])]), Ok(()));
+        for (scenes, expected) in [
+            (&[("plate", &["0x1", "0x9"][..]), ("torus", &["0x4"])][..], "frame 1 of scene plate has checksum 0x9"),
+            (&[("plate", &["0x1"])], "plate has 1 frames where"),
+            (&[("plate", &["0x1", "0x2"])], "1 scenes were played"),
+            (&[("torus", &["0x1", "0x2"])], "torus has 2 frames where"),
+        ] {
+            let message = message(scenes).expect_err("a difference");
+            assert!(message.starts_with(expected), "{message}");
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The tools behind `cargo xtask`: everything a person or CI does with Halfspace starts here.
+//!
+//! | module | its one idea |
+//! | --- | --- |
+//! | [`cli`] | the commands and their flags |
+//! | [`commands`] | one file per command |
+//! | [`setup`] | makes this machine able: Rust target, QEMU, other tools |
+//! | [`firmware_build`] | builds a board's ELF file |
+//! | [`boot`] | from nothing to a firmware that runs |
+//! | [`qemu`] | one running QEMU with its console, link and log; [`qmp`] is its remote control |
+//! | [`machine`] | QEMU, or this process, as something that is stepped frame by frame |
+//! | [`session`] | what a controller said, frame by frame, and playing it on a machine |
+//! | [`demo`] | the recorded session on a machine; [`report`] what it took, [`golden`] what it must show |
+//! | [`render`] | a model file to a picture |
+//! | [`stream`] | files of packet words |
+//! | [`software_fpga`] | the FPGA's software model with memory of its own |
+//! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`checks`] | the steps of `cargo xtask test` |
+//! | [`generated`] | the files that are written from one source and committed |
+//! | [`model`] | a model from a file as a mesh |
+//! | [`log_decoder`] | turns the firmware's defmt bytes into text |
+//! | [`picture`] | RGB pictures, PNG, animated PNG and depth files |
+//! | [`obj`] | reads Wavefront OBJ models |
+//! | [`progress`], [`table`] | what is said while working, and what is shown at the end |
+//! | [`paths`] | where the workspace is and where results go |
+
+#![forbid(unsafe_code)]
+
+#[cfg(not(unix))]
+compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS or in WSL");
+
+pub mod boot;
+pub mod checks;
+pub mod cli;
+pub mod commands;
+pub mod console;
+pub mod demo;
+pub mod firmware_build;
+pub mod generated;
+pub mod golden;
+pub mod log_decoder;
+pub mod machine;
+pub mod measure;
+pub mod model;
+pub mod obj;
+pub mod paths;
+pub mod picture;
+pub mod progress;
+pub mod qemu;
+pub mod qmp;
+pub mod render;
+pub mod report;
+pub mod session;
+pub mod setup;
+pub mod software_fpga;
+pub mod stream;
+pub mod table;
+
+#[cfg(test)]
+mod test_elf;
+#[cfg(test)]
+mod test_random;

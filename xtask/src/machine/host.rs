@@ -1,0 +1,112 @@
+//! The application in this process, on the software model.
+
+use std::collections::VecDeque;
+use std::marker::PhantomData;
+
+use controls::Controls;
+use firmware::app::{Application, Memory};
+use firmware::board::Board;
+use fpga_regs::{Renderer, Timeouts};
+
+use super::Machine;
+use crate::picture::Picture;
+use crate::software_fpga::{NoWait, SharedModel, with_model};
+
+/// A board without hardware.
+struct HostBoard<'a, 'memory> {
+    of_model: PhantomData<SharedModel<'a, 'memory>>,
+    incoming: VecDeque<u8>,
+    outgoing: VecDeque<u8>,
+    console: String,
+}
+
+impl<'a, 'memory> Board for HostBoard<'a, 'memory> {
+    const NAME: &'static str = "host";
+    const LACKS: &'static str = "no board at all";
+    const TICKS_PER_SECOND: u32 = 1;
+    type Console = String;
+    type Port = SharedModel<'a, 'memory>;
+
+    /// No time passes, so that a run repeats exactly.
+    fn ticks(&self) -> u64 {
+        0
+    }
+
+    fn console(&mut self) -> &mut String {
+        &mut self.console
+    }
+
+    fn poll_controllers(&mut self, _: &mut Controls) -> u32 {
+        0
+    }
+
+    fn read_link(&mut self, buffer: &mut [u8]) -> usize {
+        let count = buffer.len().min(self.incoming.len());
+        for (slot, byte) in buffer.iter_mut().zip(self.incoming.drain(..count)) {
+            *slot = byte;
+        }
+        count
+    }
+
+    fn write_link(&mut self, bytes: &[u8]) {
+        self.outgoing.extend(bytes);
+    }
+
+    fn picture_checksum(&mut self, model: &mut Self::Port) -> Option<u32> {
+        Some(model.checksum())
+    }
+
+    fn pace(&mut self) {}
+
+    fn heartbeat(&mut self, _: u32) {}
+
+    fn sleep(&mut self) {}
+}
+
+/// The application and its model as a machine.
+struct Host<'a, 'memory> {
+    application: Application<'a, HostBoard<'a, 'memory>, NoWait>,
+    model: SharedModel<'a, 'memory>,
+}
+
+impl Machine for Host<'_, '_> {
+    fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
+        self.application.board().incoming.extend(bytes);
+        Ok(())
+    }
+
+    fn receive(&mut self, what: &str) -> anyhow::Result<u8> {
+        // It answers at once or, when the message was lost, not at all.
+        if self.application.board().outgoing.is_empty() {
+            self.application.run_once();
+        }
+        match self.application.board().outgoing.pop_front() {
+            Some(byte) => Ok(byte),
+            None => anyhow::bail!("no answer; waited for {what}; console: {}", self.application.board().console),
+        }
+    }
+
+    fn screen(&mut self) -> anyhow::Result<(u32, Picture)> {
+        Ok((self.model.checksum(), self.model.picture().doubled()))
+    }
+}
+
+/// Starts the application on the software model, in this process, and lends it to `work`.
+///
+/// # Errors
+/// When the application does not start, or `work`'s.
+pub fn with_host<R>(work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>) -> anyhow::Result<R> {
+    with_model(|device| {
+        let model = SharedModel::new(device);
+        let board = HostBoard {
+            of_model: PhantomData,
+            incoming: VecDeque::new(),
+            outgoing: VecDeque::new(),
+            console: String::new(),
+        };
+        let renderer = Renderer::new(model.clone(), NoWait, Timeouts::default())?;
+        let mut memory = Box::<Memory>::default();
+        let application = Application::new(board, renderer, &mut memory)?;
+        work(&mut Host { application, model })
+    })
+}

@@ -1,0 +1,196 @@
+//! What a vertex, a triangle and a pixel cost: instructions on the board, nanoseconds here.
+
+use std::time::Instant;
+
+use anyhow::Context;
+use controls::{Config, Controls};
+use firmware::scene::{MAX_VERTICES, MeshMemory, Meshes, Scene};
+use firmware::viewer::Viewer;
+use fixed::types::{I4F28, I32F32};
+use fpga_regs::packet::{Clear, FlatTriangle};
+use fpga_regs::registers::{Control, Register};
+use fpga_regs::screen::{DEPTH_FAR, Rgb332};
+use geometry::{Culling, Face, FaceLight, Matrix, Mesh, ScreenTransform, ScreenVertex, Sink, Transformed, Winding};
+use serde::Serialize;
+
+use crate::machine::{Link, Machine};
+use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport};
+use crate::session::{self, ScenePart};
+use crate::software_fpga::with_model;
+
+/// Runs of which the median counts.
+const RUNS: usize = 15;
+/// Frames in a run of the geometry.
+const FRAMES: usize = 20;
+/// Full screens in a run of the model.
+const SCREENS: i32 = 40;
+/// Frames of each scene on the board.
+const BOARD_FRAMES: usize = 8;
+
+/// One number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Measurement {
+    /// What was measured.
+    pub name: &'static str,
+    /// How much it is.
+    pub value: f64,
+    /// Of what.
+    pub unit: &'static str,
+    /// What it may not be worse than, if there is such a bar.
+    pub bar: Option<f64>,
+    /// Which way is better.
+    pub better: &'static str,
+}
+
+impl Measurement {
+    fn new(name: &'static str, value: f64, unit: &'static str) -> Self {
+        Self { name, value: (value * 100.0).round() / 100.0, unit, bar: None, better: "lower" }
+    }
+}
+
+/// Counts the Cortex-A9's instructions in a few frames of the recorded session.
+///
+/// # Errors
+/// When the board fails.
+pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Result<Vec<Measurement>> {
+    let mut link = Link::new(machine);
+    let identity = link.identify()?;
+    let mut report = |scene: Scene| {
+        let part = parts.iter().find(|part| part.scene == scene);
+        let part = part.with_context(|| format!("the session has no scene {}", scene.name()))?;
+        let part = ScenePart { scene, frames: part.frames.iter().take(BOARD_FRAMES).copied().collect() };
+        let mut frames = Vec::new();
+        session::play(&mut link, &part, |frame| {
+            frames.push(frame);
+            Ok(())
+        })?;
+        anyhow::Ok(SceneReport::new(scene.name(), &identity, &frames))
+    };
+    let (plate, torus, tunnel) = (report(Scene::Plate)?, report(Scene::Torus)?, report(Scene::Tunnel)?);
+    let per = |name, value| Measurement::new(name, value, "instructions");
+    Ok(vec![
+        Measurement {
+            bar: Some(INSTRUCTIONS_PER_TRIANGLE_MAX),
+            ..per("geometry.instructions_per_triangle", torus.instructions_per_triangle)
+        },
+        per("geometry.instructions_per_vertex", torus.instructions_per_vertex),
+        per("geometry.instructions_per_large_triangle", plate.instructions_per_triangle),
+        per("geometry.instructions_per_clipped_scene_triangle", tunnel.instructions_per_triangle),
+    ])
+}
+
+/// Times geometry and software model in this process.
+///
+/// # Errors
+/// When a built-in mesh is malformed.
+pub fn on_host() -> anyhow::Result<Vec<Measurement>> {
+    let mut mesh_memory = Box::<MeshMemory>::default();
+    let meshes = Meshes::new(&mut mesh_memory)?;
+    let mesh = meshes.of(Scene::Torus);
+    let view = Viewer::new(Scene::Torus).view(&Controls::new(Config::default()).state());
+    let transform = ScreenTransform::new(&view.model_to_clip, mesh);
+    let light = FaceLight::new(&view.light, &view.model);
+    let mut cache = vec![ScreenVertex::default(); MAX_VERTICES];
+    let mut words = Words { buffer: vec![0; 2 * mesh.faces().len() * FlatTriangle::WORDS], used: 0 };
+
+    let vertices = median_nanoseconds(|| {
+        for _ in 0..FRAMES {
+            std::hint::black_box(Transformed::new(mesh, &transform, &mut cache).is_ok());
+        }
+    });
+    let triangles = median_nanoseconds(|| {
+        for _ in 0..FRAMES {
+            words.used = 0;
+            if let Ok(transformed) = Transformed::new(mesh, &transform, &mut cache) {
+                std::hint::black_box(transformed.draw(&light, Culling::BackFaces, &mut words));
+            }
+        }
+    });
+    let each = |nanoseconds: f64, count: usize| nanoseconds / (FRAMES * count) as f64;
+    Ok(vec![
+        Measurement::new("geometry.host_ns_per_vertex", each(vertices, mesh.positions().len()), "ns"),
+        Measurement::new("geometry.host_ns_per_triangle", each(triangles, mesh.faces().len()), "ns"),
+        Measurement::new("model.host_ns_per_pixel", pixel_nanoseconds()?, "ns"),
+    ])
+}
+
+/// Draws the whole screen again and again, each time nearer, so that every pixel is written.
+fn pixel_nanoseconds() -> anyhow::Result<f64> {
+    let words = screens()?;
+    with_model(|device| {
+        device.write(Register::Control, Control::default().with_enable(true).0);
+        let before = device.counters().pixels_written;
+        device.push(&words);
+        let pixels = device.counters().pixels_written - before;
+        anyhow::ensure!(pixels > 0, "the full-screen triangles drew nothing");
+        Ok(median_nanoseconds(|| device.push(&words)) / f64::from(pixels))
+    })
+}
+
+/// Returns a clear, and two triangles for each full screen.
+fn screens() -> anyhow::Result<Vec<u32>> {
+    let one = I4F28::ONE;
+    let positions = [(-one, -one), (one, -one), (one, one), (-one, one)].map(|(x, y)| [x, y, I4F28::ZERO]);
+    let faces = [[0, 1, 2], [0, 2, 3]].map(|corners| Face { corners, normal: [0; 3], colour: [200, 100, 50] });
+    let mesh = Mesh::new(&positions, &faces, Winding::CounterClockwise)?;
+    let mut cache = [ScreenVertex::default(); 4];
+    let mut words = Words { buffer: vec![0; 2 * SCREENS as usize * FlatTriangle::WORDS], used: 0 };
+    for screen in 0..SCREENS {
+        let nearer = I32F32::from_num(SCREENS / 2 - screen) / i64::from(SCREENS);
+        let transform = ScreenTransform::new(&Matrix::translation([I32F32::ZERO, I32F32::ZERO, nearer]), &mesh);
+        Transformed::new(&mesh, &transform, &mut cache)?.draw(&FaceLight::FULL, Culling::BackFaces, &mut words);
+    }
+    let clear = Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode();
+    Ok([&clear[..], &words.buffer[..words.used]].concat())
+}
+
+/// Puts words into memory, as the firmware does.
+struct Words {
+    buffer: Vec<u32>,
+    used: usize,
+}
+
+impl Sink for Words {
+    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
+        self.buffer[self.used..].first_chunk_mut()
+    }
+
+    fn take(&mut self, _: [&ScreenVertex; 3], _: [u8; 3]) {
+        self.used += FlatTriangle::WORDS;
+    }
+}
+
+fn median_nanoseconds(mut work: impl FnMut()) -> f64 {
+    let mut times: Vec<u128> = (0..RUNS)
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed().as_nanos()
+        })
+        .collect();
+    times.sort_unstable();
+    times[RUNS / 2] as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_is_measured_and_is_above_nothing() {
+        let measurements = on_host().expect("built-in meshes are good");
+        assert_eq!(measurements.len(), 3);
+        assert!(measurements.iter().all(|it| it.value > 0.0 && it.unit == "ns"), "{measurements:?}");
+    }
+
+    #[test]
+    fn the_full_screens_write_every_pixel_each_time() {
+        let words = screens().expect("a good mesh");
+        let pixels = with_model(|device| {
+            device.write(Register::Control, Control::default().with_enable(true).0);
+            device.push(&words);
+            device.counters().pixels_written
+        });
+        assert_eq!(pixels as usize, SCREENS as usize * fpga_regs::screen::PIXELS);
+    }
+}

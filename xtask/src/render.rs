@@ -1,0 +1,166 @@
+//! A model file to a picture: the board's geometry and the FPGA's software model, on this computer.
+
+pub mod camera;
+pub mod mvp;
+
+use anyhow::Context;
+use fixed::types::{I2F30, I16F16};
+use fpga_regs::packet::{Clear, FlatTriangle, swap};
+use fpga_regs::screen::{DEPTH_FAR, Rgb332};
+use fpga_regs::{Renderer, Timeouts};
+use geometry::pipeline::DrawStatistics;
+use geometry::{Culling, DirectionalLight, FaceLight, Matrix, ScreenTransform, ScreenVertex, Sink, draw};
+
+use crate::model::Model;
+use crate::picture::Picture;
+use crate::software_fpga::{NoWait, SharedModel, with_model};
+
+/// How a model is seen.
+#[derive(Debug, Clone, Copy)]
+pub struct View {
+    /// Stored positions to clip space.
+    pub model_to_clip: Matrix,
+    /// Model to world space, for the light: turns only.
+    pub model: Matrix,
+    /// Which faces are drawn.
+    pub culling: Culling,
+}
+
+/// A triangle as it was set up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SetUp {
+    /// x, y in sixteenths of a pixel and depth 0…65,535 of each corner, counter-clockwise.
+    pub corners: [[i32; 3]; 3],
+    /// Red, green, blue, 0…255, lit.
+    pub colour: [u8; 3],
+}
+
+/// What drawing a model makes.
+#[derive(Debug, Clone)]
+pub struct Rendered {
+    /// All words of the frame: clear, triangles, swap.
+    pub words: Vec<u32>,
+    /// The triangles of these words.
+    pub triangles: Vec<SetUp>,
+    /// What became of the faces.
+    pub statistics: DrawStatistics,
+    /// The framebuffer, 320×240.
+    pub picture: Picture,
+    /// The depth buffer, row 0 first.
+    pub depth: Vec<u16>,
+}
+
+/// Draws a model.
+///
+/// # Errors
+/// When the model is malformed or the software model refuses the words: mistakes of this program.
+pub fn render(model: &Model, view: &View) -> anyhow::Result<Rendered> {
+    let mesh = model.mesh()?;
+    let transform = ScreenTransform::new(&view.model_to_clip, &mesh);
+    let light = FaceLight::new(&light(), &view.model);
+    let mut cache = vec![ScreenVertex::default(); mesh.positions().len()];
+    let mut recorder = Recorder {
+        room: [0; FlatTriangle::WORDS],
+        words: Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode().to_vec(),
+        triangles: Vec::new(),
+    };
+    let statistics = draw(&mesh, &transform, &light, view.culling, &mut cache, &mut recorder)?;
+    let Recorder { mut words, triangles, .. } = recorder;
+    words.extend(swap());
+    let (picture, depth) = picture_of(&words)?;
+    Ok(Rendered { words, triangles, statistics, picture, depth })
+}
+
+/// Sends words through the driver into the software model and returns what it shows.
+fn picture_of(words: &[u32]) -> anyhow::Result<(Picture, Vec<u16>)> {
+    with_model(|device| {
+        let picture = {
+            let model = SharedModel::new(device);
+            let mut renderer = Renderer::new(model.clone(), NoWait, Timeouts::default())?;
+            renderer.push(words)?;
+            let fence = renderer.fence()?;
+            renderer.wait_fence(fence)?;
+            renderer.check_device().context("the software model refuses the words")?;
+            model.picture()
+        };
+        Ok((picture, device.depth().to_vec()))
+    })
+}
+
+/// The light, in world space: from above on the left, in front of the model.
+fn light() -> DirectionalLight {
+    // A unit vector.
+    let direction = [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")];
+    DirectionalLight { direction, diffuse: I16F16::lit("0.75"), ambient: I16F16::lit("0.25") }
+}
+
+/// Keeps triangles and their words.
+struct Recorder {
+    room: [u32; FlatTriangle::WORDS],
+    words: Vec<u32>,
+    triangles: Vec<SetUp>,
+}
+
+impl Sink for Recorder {
+    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
+        Some(&mut self.room)
+    }
+
+    fn take(&mut self, corners: [&ScreenVertex; 3], colour: [u8; 3]) {
+        self.words.extend(self.room);
+        self.triangles.push(SetUp { corners: corners.map(|corner| [corner.x, corner.y, corner.depth]), colour });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::obj::parse_obj;
+    use crate::render::camera::Fit;
+    use std::path::Path;
+
+    /// A tetrahedron, counter-clockwise seen from outside, far from the origin.
+    const TETRAHEDRON: &str = "v 101 1 1\nv 101 -1 -1\nv 99 1 -1\nv 99 -1 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+
+    fn rendered(culling: Culling) -> Rendered {
+        let obj = parse_obj(TETRAHEDRON.as_bytes(), Path::new("t.obj")).expect("a model");
+        let model = Model::new(&obj).expect("of a usual size");
+        let fit = Fit::new(&obj.positions, [20.0, 30.0, 0.0]);
+        let view = View {
+            model_to_clip: camera::to_matrix(&fit.model_to_clip(), model.scale_log2),
+            model: fit.rotation_matrix(),
+            culling,
+        };
+        render(&model, &view).expect("it draws")
+    }
+
+    #[test]
+    fn a_model_fills_the_picture_and_none_of_it_is_cut() {
+        let rendered = rendered(Culling::BackFaces);
+        let statistics = rendered.statistics;
+        assert_eq!((statistics.submitted, statistics.clipped), (4, 0));
+        assert!((1..4).contains(&statistics.drawn), "back faces are culled");
+        assert_eq!(rendered.triangles.len(), statistics.drawn as usize);
+        assert_eq!(rendered.words.len(), 2 + FlatTriangle::WORDS * rendered.triangles.len() + 1);
+        let lit: Vec<usize> = rendered
+            .picture
+            .pixels()
+            .enumerate()
+            .filter(|(_, pixel)| *pixel != [0; 3])
+            .map(|(index, _)| index)
+            .collect();
+        assert!(lit.len() > 5_000, "{} pixels", lit.len());
+        let near = rendered.depth.iter().filter(|depth| **depth < DEPTH_FAR).count();
+        assert_eq!(near, lit.len());
+        let (columns, rows) = (lit.iter().map(|index| index % 320), lit.iter().map(|index| index / 320));
+        assert!(columns.clone().min() > Some(0) && columns.max() < Some(319));
+        assert!(rows.clone().min() > Some(0) && rows.max() < Some(239));
+    }
+
+    #[test]
+    fn both_sides_of_a_closed_model_are_twice_the_triangles_and_the_same_picture() {
+        let (one, both) = (rendered(Culling::BackFaces), rendered(Culling::None));
+        assert_eq!(both.statistics.drawn, 4);
+        assert_eq!(one.picture, both.picture);
+    }
+}
