@@ -171,10 +171,10 @@ impl<P: Port, W: Wait> Renderer<P, W> {
     pub fn wait_fence(&mut self, tag: u32) -> Result<(), RenderError> {
         let mut waited_us = 0;
         loop {
+            self.clear_interrupt(Interrupts::default().with_fence(true));
             let found = self.port.read(Register::Fence);
             // Tags grow and wrap: a later one has passed this one too.
             if found.wrapping_sub(tag) as i32 >= 0 {
-                self.port.write(Register::Interrupts, Interrupts::default().with_fence(true).0);
                 return Ok(());
             }
             self.check_device()?;
@@ -234,6 +234,8 @@ impl<P: Port, W: Wait> Renderer<P, W> {
         let enough = pending.min(depth - self.low_water() as usize);
         let (mut waited_us, mut most_free) = (0, 0);
         loop {
+            // Cleared before the look, so that an interrupt which comes after it is not lost.
+            self.clear_interrupt(Interrupts::default().with_low_water(true));
             let status = Status(self.port.read(Register::Status));
             self.check_status(status)?;
             let free = usize::from(status.fifo_free());
@@ -247,8 +249,13 @@ impl<P: Port, W: Wait> Renderer<P, W> {
             if waited_us >= self.timeouts.fifo_us {
                 return Err(RenderError::FifoStuck { waited_us, free: status.fifo_free(), pending });
             }
-            self.port.write(Register::Interrupts, Interrupts::default().with_low_water(true).0);
             waited_us += self.pause();
+        }
+    }
+
+    fn clear_interrupt(&mut self, interrupts: Interrupts) {
+        if W::INTERRUPT {
+            self.port.write(Register::Interrupts, interrupts.0);
         }
     }
 

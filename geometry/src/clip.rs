@@ -68,7 +68,18 @@ pub fn clip(triangle: [Homogeneous; 3]) -> Polygon {
         }
         polygon = clip_at(&polygon, plane);
     }
+    for corner in &mut polygon.corners[..polygon.count] {
+        *corner = settled(*corner);
+    }
     polygon
+}
+
+/// A corner moved inside all planes, where rounding at a later plane has put it a unit or two
+/// outside an earlier one.
+fn settled(corner: Homogeneous) -> Homogeneous {
+    let w = corner.w.max(SMALLEST_W);
+    let guard = doubled_guard_band(w) / 2;
+    Homogeneous { x: corner.x.clamp(-guard, guard), y: corner.y.clamp(-guard, guard), z: corner.z.clamp(0, w / 2), w }
 }
 
 fn clip_at(polygon: &Polygon, plane: usize) -> Polygon {
@@ -81,7 +92,7 @@ fn clip_at(polygon: &Polygon, plane: usize) -> Polygon {
             inside.push(*corner);
         }
         if (here >= 0) != (there >= 0) {
-            inside.push(intersection(corner, here, next, there, plane));
+            inside.push(intersection(corner, here, next, there));
         }
     }
     inside
@@ -90,8 +101,8 @@ fn clip_at(polygon: &Polygon, plane: usize) -> Polygon {
 /// The point between two vertices where the distance is 0.
 ///
 /// a·|d_b| + b·|d_a| over |d_a| + |d_b|: the same for (a, b) and (b, a). Each coordinate is
-/// rounded once, half up; then moved onto the plane's inner side, if rounding put it outside.
-fn intersection(a: &Homogeneous, here: i64, b: &Homogeneous, there: i64, plane: usize) -> Homogeneous {
+/// rounded once, half up.
+fn intersection(a: &Homogeneous, here: i64, b: &Homogeneous, there: i64) -> Homogeneous {
     let (here, there) = (here.abs(), there.abs());
     let sum = here + there;
     // Coordinates are below 2²⁹ and distances below 2³¹, so the sums are below 2⁶².
@@ -99,17 +110,5 @@ fn intersection(a: &Homogeneous, here: i64, b: &Homogeneous, there: i64, plane: 
         let numerator = i64::from(a) * there + i64::from(b) * here;
         (numerator + sum / 2).div_euclid(sum) as i32
     };
-    let mut point =
-        Homogeneous { x: between(a.x, b.x), y: between(a.y, b.y), z: between(a.z, b.z), w: between(a.w, b.w) };
-    let outside = (-distance(&point, plane)).clamp(0, 4) as i32;
-    match plane {
-        0 => point.w += outside,
-        1 => point.z += outside,
-        2 => point.z -= outside,
-        3 => point.x -= outside,
-        4 => point.x += outside,
-        5 => point.y -= outside,
-        _ => point.y += outside,
-    }
-    point
+    Homogeneous { x: between(a.x, b.x), y: between(a.y, b.y), z: between(a.z, b.z), w: between(a.w, b.w) }
 }

@@ -89,8 +89,8 @@ impl Matrix {
         rows[1][1] = cotangent;
         rows[2][2] = divide(far.saturating_add(near), depth);
         // 2·far·near/(near − far), with one rounding.
-        let product = 2 * i128::from(far.to_bits()) * i128::from(near.to_bits());
-        rows[2][3] = saturate(round_quotient(product, i128::from(depth.to_bits())));
+        let product = i128::from(far.to_bits()) * i128::from(near.to_bits());
+        rows[2][3] = saturate(round_quotient(product.saturating_mul(2), i128::from(depth.to_bits())));
         rows[3][2] = -ONE;
         Self { rows }
     }
@@ -101,11 +101,11 @@ impl Matrix {
     /// An empty box gives a useless matrix, not a panic.
     pub fn orthographic(x: (I32F32, I32F32), y: (I32F32, I32F32), depth: (I32F32, I32F32)) -> Self {
         let mut matrix = Self::IDENTITY;
-        let axes = [x, y, (-depth.0, -depth.1)];
+        let axes = [x, y, (depth.0.saturating_neg(), depth.1.saturating_neg())];
         for (axis, (low, high)) in axes.into_iter().enumerate() {
             let size = high.saturating_sub(low);
             matrix.rows[axis][axis] = divide(I32F32::from_num(2), size);
-            matrix.rows[axis][3] = divide(-high.saturating_add(low), size);
+            matrix.rows[axis][3] = divide(high.saturating_add(low).saturating_neg(), size);
         }
         matrix
     }
@@ -116,12 +116,12 @@ impl Matrix {
     pub fn look_at(eye: Vector, target: Vector, up: Vector) -> Option<Self> {
         let backward = normalise(subtract(eye, target))?;
         let right = normalise(cross(up, backward))?;
-        let upward = cross(right, backward).map(|part| -part);
+        let upward = cross(right, backward).map(I32F32::saturating_neg);
         let axes = [right, upward, backward];
         let mut matrix = Self::IDENTITY;
         for (row, axis) in matrix.rows.iter_mut().zip(axes) {
             row[..3].copy_from_slice(&axis);
-            row[3] = -dot(axis, eye);
+            row[3] = dot(axis, eye).saturating_neg();
         }
         Some(matrix)
     }
@@ -148,7 +148,7 @@ pub fn dot(a: Vector, b: Vector) -> I32F32 {
 
 /// Returns the vector product; each part is rounded once, half up, and saturates.
 pub fn cross(a: Vector, b: Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| sum_of_products([(a[i], b[j]), (-a[j], b[i])].into_iter()))
+    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| sum_of_products([(a[i], b[j]), (a[j].saturating_neg(), b[i])].into_iter()))
 }
 
 /// Returns `a − b`, saturated.
@@ -185,11 +185,15 @@ pub fn divide(numerator: I32F32, denominator: I32F32) -> I32F32 {
     saturate(round_quotient(i128::from(numerator.to_bits()) << 32, i128::from(denominator.to_bits())))
 }
 
+/// The quotient, rounded half up; a zero denominator gives the largest number of the right sign.
 fn round_quotient(numerator: i128, denominator: i128) -> i128 {
-    match denominator {
-        0 => numerator.signum() * i128::MAX,
-        _ => (2 * numerator + denominator).div_euclid(2 * denominator),
-    }
+    let (numerator, denominator) = match denominator {
+        0 => return numerator.signum() * i128::MAX,
+        ..0 => (numerator.saturating_neg(), -denominator),
+        _ => (numerator, denominator),
+    };
+    let (quotient, rest) = (numerator.div_euclid(denominator), numerator.rem_euclid(denominator));
+    quotient + i128::from(rest >= denominator - rest)
 }
 
 fn saturate(bits: i128) -> I32F32 {

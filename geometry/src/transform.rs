@@ -15,7 +15,8 @@ const FULL_SCALE_BITS: u32 = 14;
 const MAGNITUDE_BITS: u32 = 29;
 /// Fraction bits of a coordinate over w.
 const QUOTIENT_BITS: u32 = 29;
-/// The smallest w that is divided by; below it a vertex is clipped.
+/// The smallest w that is divided by; below it a vertex is clipped. A near plane nearer than
+/// about a millionth of the farthest that the mesh can reach is therefore not honoured.
 pub const SMALLEST_W: i32 = 256;
 
 /// A vertex in homogeneous screen space.
@@ -40,7 +41,8 @@ pub struct Homogeneous {
 /// a rounded screen coordinate within [`GUARD_BAND`](fpga_regs::screen::GUARD_BAND).
 #[inline(always)]
 pub fn doubled_guard_band(w: i32) -> i32 {
-    w - (w >> (FULL_SCALE_BITS - 2))
+    // Less than half of w by two sixteenths of a pixel or more, at any w.
+    w - (w >> (FULL_SCALE_BITS - 2)) - 1
 }
 
 impl Homogeneous {
@@ -99,8 +101,8 @@ impl Row {
 impl ScreenTransform {
     /// Returns the transform for a mesh under a model-to-clip-space matrix.
     ///
-    /// The relative error of a row is below 2⁻²⁹ of the greatest coordinate that any vertex of
-    /// the mesh can have; a matrix of zeros puts every vertex behind the eye.
+    /// The error of a row is below 5 · 2⁻²⁹ of the greatest coordinate that any vertex of the mesh
+    /// can have; a matrix of zeros puts every vertex behind the eye.
     pub fn new(model_to_clip: &Matrix, mesh: &Mesh<'_>) -> Self {
         let rows = viewport_rows(model_to_clip);
         let extent = mesh.extent().map(i128::from);

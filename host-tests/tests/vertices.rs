@@ -24,8 +24,8 @@ const PIXELS_AT_NO_REACH: f64 = 1.0 / 32.0 + 1.0 / 512.0;
 /// What rounding and the reciprocal cost in depth.
 const DEPTH_AT_NO_REACH: f64 = 0.6;
 /// What a unit of reach costs more, in pixels and in depth (measured, with a quarter to spare).
-const PIXELS_PER_REACH: f64 = 1.1e-5;
-const DEPTH_PER_REACH: f64 = 1e-3;
+const PIXELS_PER_REACH: f64 = 5.3e-6;
+const DEPTH_PER_REACH: f64 = 8.5e-4;
 /// The guard band in pixels, less a hair for vertices on its border.
 const GUARD_PIXELS: f64 = (GUARD_BAND / SUBPIXEL - 1) as f64;
 
