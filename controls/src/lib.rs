@@ -24,21 +24,15 @@
 //! | pan | left stick | A, D; W, S | [`pan()`](ControllerState::pan): the model moves across the screen |
 //! | turn | right stick, left–right | Q, E | [`turn()`](ControllerState::turn): the model spins about its upright axis |
 //! | zoom | right stick, up–down | `+` `-`, Page Up/Down, Z X | [`zoom()`](ControllerState::zoom): nearer, farther |
-//! | step | D-pad | I J K L | one step a press, for scenes that move in steps |
 //! | freeze | Cross | Space | [`frozen`](ControllerState::frozen): the pose stays while it is held |
 //! | next scene | Start | Enter, keypad Enter | a press |
 //! | previous scene | Select | Backspace | a press |
-//! | shading | Triangle | Tab | wire frame, flat, smooth, depth |
-//! | projection | Circle | C | perspective or parallel |
-//! | step mode | Square | V | steps rotate or steps pan |
-//! | reset pose | R3 (push the right stick) | R | the tilt is level again, at once |
-//! | fit | L3 (push the left stick) | F | the model fills the screen |
-//! | previous, next model | L1, R1 | 1, 2 | a press |
-//! | slower, faster | L2, R2 | 3, 4 | a press |
-//! | menu | PS | Escape | a press |
+//! | reset pose | R3 (push the right stick) | R | the tilt is level again, at once; pan, turn and zoom as at the start |
+//! | centre | L3 (push the left stick) | F | pan, turn and zoom are as at the start |
+//! | no effect yet | D-pad; Triangle, Circle, Square, PS; L1, R1; L2, R2 | I J K L; Tab, C, V, Escape; 1, 2; 3, 4 | read and reported; the viewer has no use for them yet |
 //!
 //! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
-//! every other control is the application's, and the table is what it should be.
+//! every other control is the viewer's, in `firmware`.
 //!
 //! # How two sources make one state
 //!

@@ -20,14 +20,17 @@ pub struct Timeouts {
     pub fifo_us: u32,
     /// For a fence to be passed.
     pub fence_us: u32,
-    /// Time between two looks at a register while waiting.
+    /// Time between two looks at a register while waiting without an interrupt.
     pub poll_us: u32,
+    /// The same with an interrupt, which ends a wait by itself; the look is for a lost one.
+    pub interrupt_us: u32,
 }
 
 impl Default for Timeouts {
-    /// Returns a reset of 1 ms, six frames for the FIFO and the fence, and a look every 20 µs.
+    /// Returns a reset of 1 ms, six frames for the FIFO and the fence, and a look every 20 µs,
+    /// or every 1 ms beside an interrupt.
     fn default() -> Self {
-        Self { reset_us: 1_000, fifo_us: 100_000, fence_us: 100_000, poll_us: 20 }
+        Self { reset_us: 1_000, fifo_us: 100_000, fence_us: 100_000, poll_us: 20, interrupt_us: 1_000 }
     }
 }
 
@@ -254,16 +257,22 @@ impl<P: Port, W: Wait> Renderer<P, W> {
     }
 
     fn clear_interrupt(&mut self, interrupts: Interrupts) {
-        if W::INTERRUPT {
+        if self.has_interrupt() {
             self.port.write(Register::Interrupts, interrupts.0);
         }
+    }
+
+    /// Whether the device's interrupt ends a wait: it takes a wire on one side and a handler on the
+    /// other.
+    fn has_interrupt(&self) -> bool {
+        W::INTERRUPT && self.capabilities.interrupt()
     }
 
     /// Waits for one step and returns how long it took, in microseconds.
     ///
     /// A step is longer with an interrupt, because that ends it.
     fn pause(&mut self) -> u32 {
-        let micros = if W::INTERRUPT { self.timeouts.poll_us * 50 } else { self.timeouts.poll_us };
+        let micros = if self.has_interrupt() { self.timeouts.interrupt_us } else { self.timeouts.poll_us };
         self.wait.wait(micros).max(1)
     }
 

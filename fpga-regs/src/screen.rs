@@ -49,6 +49,8 @@ impl Rgb332 {
     pub const BLACK: Self = Self(0);
 
     /// Returns the nearest RGB332 colour to an 8-bit-per-channel one; a tie goes up.
+    ///
+    /// `geometry`'s `Intensity::framebuffer_colour` does the same for a colour and its light at once.
     #[inline(always)]
     pub const fn nearest(red: u8, green: u8, blue: u8) -> Self {
         // round(v·7/255) and round(v·3/255), exact for every v below 256 (tested).

@@ -81,7 +81,8 @@ impl Intensity {
         colour.map(|channel| ((u32::from(channel) * self.0 + 128) >> 8) as u8)
     }
 
-    /// Returns the framebuffer colour nearest to the lit colour, rounded once: the product is
+    /// Returns the framebuffer colour nearest to the lit colour, as [`Rgb332::nearest`] but rounded
+    /// once: the product is
     /// not rounded to a byte in between. Within 0.03 of a step it may take the neighbour.
     #[inline(always)]
     pub fn framebuffer_colour(self, [red, green, blue]: [u8; 3]) -> Rgb332 {

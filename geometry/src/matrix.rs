@@ -5,7 +5,7 @@
 //! matrices is worked out a few times a frame, so it can afford 128-bit sums; a vertex cannot,
 //! and gets a [`ScreenTransform`](crate::ScreenTransform).
 
-use fixed::types::{I2F30, I32F32};
+use fixed::types::I32F32;
 
 use crate::angle::Angle;
 
@@ -170,18 +170,13 @@ pub fn normalise(vector: Vector) -> Option<Vector> {
     Some(parts.map(|part| I32F32::from_bits((part << 32) / length)))
 }
 
-/// Returns a unit vector's parts in Q2.30.
-pub fn to_unit_parts(vector: Vector) -> [I2F30; 3] {
-    vector.map(|part| I2F30::saturating_from_num(part))
-}
-
 fn sum_of_products(pairs: impl Iterator<Item = (I32F32, I32F32)>) -> I32F32 {
     let sum: i128 = pairs.map(|(a, b)| (i128::from(a.to_bits()) * i128::from(b.to_bits())) >> 2).sum();
     saturate((sum + (1 << 29)) >> 30)
 }
 
 /// `numerator/denominator`, rounded half up and saturated; a zero denominator saturates too.
-pub fn divide(numerator: I32F32, denominator: I32F32) -> I32F32 {
+fn divide(numerator: I32F32, denominator: I32F32) -> I32F32 {
     saturate(round_quotient(i128::from(numerator.to_bits()) << 32, i128::from(denominator.to_bits())))
 }
 

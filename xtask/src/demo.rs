@@ -1,4 +1,4 @@
-//! The recorded session, played on a machine.
+//! The demonstration session, played on a machine.
 
 use anyhow::ensure;
 

@@ -10,7 +10,7 @@
 //! | [`qemu`] | one running QEMU with its console, link and log; [`qmp`] is its remote control |
 //! | [`machine`] | QEMU, or this process, as something that is stepped frame by frame |
 //! | [`session`] | what a controller said, frame by frame, and playing it on a machine |
-//! | [`demo`] | the recorded session on a machine; [`report`] what it took, [`golden`] what it must show |
+//! | [`demo`] | the demonstration session on a machine; [`report`] what it took, [`golden`] what it must show |
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |

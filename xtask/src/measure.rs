@@ -48,7 +48,7 @@ impl Measurement {
     }
 }
 
-/// Counts the Cortex-A9's instructions in a few frames of the recorded session.
+/// Counts the Cortex-A9's instructions in a few frames of the demonstration session.
 ///
 /// # Errors
 /// When the board fails.

@@ -80,6 +80,7 @@ pub fn parse(text: &str) -> anyhow::Result<Vec<ScenePart>> {
             None => bail!("line {number}: a frame before the first `scene` line"),
         }
     }
+    anyhow::ensure!(parts.iter().any(|part| !part.frames.is_empty()), "there is no frame in it: get the file again");
     Ok(parts)
 }
 
@@ -160,7 +161,7 @@ mod tests {
         let report = DualShock3Report::default().to_bytes();
         let parts = vec![
             ScenePart { scene: Scene::Plate, frames: vec![Some(report), None] },
-            ScenePart { scene: Scene::Tunnel, frames: vec![] },
+            ScenePart { scene: Scene::Tunnel, frames: vec![None] },
         ];
         assert_eq!(parse(&format(&parts)).expect("what was written is read"), parts);
     }
@@ -169,6 +170,7 @@ mod tests {
     fn malformed_lines_are_named() {
         for (text, expected) in [
             ("-", "line 1: a frame before"),
+            ("# nothing\nscene plate\n", "there is no frame in it"),
             ("scene cube", "no scene `cube`: use plate, torus, tunnel"),
             ("scene plate\n\n0102", "line 3: 4 characters"),
             (&format!("scene plate\n{}", "0g".repeat(49)), "`0g` is no hexadecimal byte"),

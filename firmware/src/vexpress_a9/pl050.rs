@@ -82,12 +82,6 @@ impl Keyboard {
         }
         None
     }
-
-    /// Returns whether the keyboard sent something that [`poll`](Self::poll) has not taken in.
-    #[must_use]
-    pub fn is_ready(&self) -> bool {
-        self.received.ready()
-    }
 }
 
 impl KeyboardInterrupt {

@@ -9,14 +9,15 @@ use fpga_regs::{RenderError, Renderer, Timeouts, Wait};
 use super::model_port::{ModelMemory, ModelPort};
 use super::pl011::{Console, Link};
 use super::pl050::Keyboard;
-use super::{Board as Drivers, leds::Led};
+use super::{Board as Drivers, leds::Led, ticks};
 use crate::app::{Application, Memory};
 use crate::board::Board;
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
+use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::cortex_a9::sleep::sleep_unless;
 
-/// A frame of the FPGA's VGA output: 800 × 525 pixels at 25.175 MHz.
-const FRAME_MICROSECONDS: u64 = 16_683;
+/// What the FPGA's VGA output shows, nearly: 59.94 in a second.
+const FRAMES_PER_SECOND: u32 = 60;
 /// Frames between two lines in the log.
 const FRAMES_A_LOG_LINE: u32 = 60;
 
@@ -26,9 +27,10 @@ pub struct ViewerBoard {
     link: Link,
     keyboard: Keyboard,
     clock: GlobalTimer,
-    delay: Delay,
+    timer: PrivateTimer,
     heartbeat: Led,
-    next_frame: u64,
+    /// The timer's tick at which the last frame ended; `None` while it is stopped.
+    last_tick: Option<u32>,
 }
 
 /// Returns the application on this board.
@@ -40,11 +42,11 @@ pub fn application(
     model_memory: &'static mut ModelMemory,
     memory: &'static mut Memory,
 ) -> Result<Application<'static, ViewerBoard, DelayWait>, StartError> {
-    let Drivers { console, link, keyboard, display, clock, delay, leds: [heartbeat, ..], .. } = drivers;
+    let Drivers { console, link, keyboard, display, clock, timer, leds: [heartbeat, ..], .. } = drivers;
     let port = ModelPort::new(model_memory, display).map_err(StartError::Model)?;
     let renderer =
         Renderer::new(port, DelayWait(Delay::new(clock)), Timeouts::default()).map_err(StartError::Renderer)?;
-    let board = ViewerBoard { console, link, keyboard, clock, delay, heartbeat, next_frame: 0 };
+    let board = ViewerBoard { console, link, keyboard, clock, timer, heartbeat, last_tick: None };
     Application::new(board, renderer, memory).map_err(StartError::Mesh)
 }
 
@@ -119,11 +121,16 @@ impl Board for ViewerBoard {
     }
 
     fn pace(&mut self) {
-        let now = self.clock.microseconds();
-        if let Some(early) = self.next_frame.checked_sub(now) {
-            self.delay.delay_us(early.min(FRAME_MICROSECONDS) as u32);
+        match self.last_tick {
+            None => self.timer.start_periodic(FRAMES_PER_SECOND),
+            // Other interrupts end a sleep, too.
+            Some(last) => {
+                while ticks() == last {
+                    sleep_unless(|| ticks() != last);
+                }
+            }
         }
-        self.next_frame = now.max(self.next_frame) + FRAME_MICROSECONDS;
+        self.last_tick = Some(ticks());
     }
 
     fn heartbeat(&mut self, frame: u32) {
@@ -134,6 +141,9 @@ impl Board for ViewerBoard {
     }
 
     fn sleep(&mut self) {
+        // A PC steps the frames: no tick may come in between and be counted with them.
+        self.timer.stop();
+        self.last_tick = None;
         sleep_unless(|| self.link.read_ready().unwrap_or(false));
     }
 }

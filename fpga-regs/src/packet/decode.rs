@@ -6,7 +6,7 @@ use crate::screen::{HEIGHT, PacketDepth, Rgb332, WIDTH};
 /// A packet, decoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Packet {
-    /// Fill both back buffers.
+    /// Fill the back buffer and the depth buffer.
     Clear(Clear),
     /// Draw a flat triangle.
     FlatTriangle(FlatTriangle),

@@ -24,7 +24,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// How the firmware ends after a fault.
 const FAILED: i32 = 101;
 
-/// The recorded session gives the same frames in QEMU, in this process, and in the golden file.
+/// The demonstration session gives the same frames in QEMU, in this process, and in the golden file.
 pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
     let parts = session::demo()?;
     let golden = Golden::read()?

@@ -1,4 +1,4 @@
-//! The plate of the first seed as constants for the firmware.
+//! The plate of "3D Rendering in FPGA" (Columbia, 2014) as constants for the firmware.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use crate::model::{face_normal, position_bits};
 use crate::obj::read_obj;
 use crate::paths::workspace_root;
 
-/// The seed's three blues, by face number: 0–39, 40–78, the rest.
+/// Its three blues, by face number: 0–39, 40–78, the rest.
 fn colour(face: usize) -> [u8; 3] {
     match face {
         0..=39 => [0x27, 0x40, 0xab],

@@ -1,4 +1,4 @@
-//! The recorded session of the demonstration.
+//! The demonstration session of the demonstration.
 //!
 //! It is made from the formulas below, in integers and in sums and products of `f64`, so that
 //! every machine makes the same file.
