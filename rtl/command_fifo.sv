@@ -2,7 +2,8 @@
 //
 // Handshake: a word moves in a clock where valid and ready are both 1. `word_o` shows the oldest
 // word (show-ahead). Latency from push to show: 2 clocks. Throughput: a word in and a word out
-// every clock. `clear_i` empties it; a push in the same clock is lost.
+// every clock. `clear_i` empties it; a push in
+// the same clock is lost (the agent in front of it makes none).
 // Constraint: Depth is a power of two, at least 4.
 `default_nettype none
 

@@ -1,5 +1,6 @@
 // The FIFO's aperture on the bus: Avalon-MM, write only, 32 bits, any address pushes.
 //
+// A word that comes in the clock of a reset waits for the next, so that it is not lost with those before.
 // While the FIFO is full and the device enabled, waitrequest holds the bus: the FIFO will drain.
 // So that a write can never hang the processor for ever, a word is dropped, flagged by a clock of
 // `overflow_o`, instead of held
@@ -13,6 +14,7 @@ module fifo_agent #(
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
+    input  logic        clear_i,
     input  logic        enable_i,
 
     input  logic        write_i,
@@ -33,14 +35,14 @@ module fifo_agent #(
   logic impatient;
 
   assign impatient     = held_q == HeldWidth'(Patience);
-  assign valid_o       = write_i;
+  assign valid_o       = write_i && !clear_i;
   assign word_o        = writedata_i;
-  assign waitrequest_o = write_i && !ready_i && enable_i && !impatient;
+  assign waitrequest_o = write_i && (clear_i || (!ready_i && enable_i && !impatient));
   assign overflow_o    = write_i && !ready_i && !waitrequest_o;
 
   always_comb begin
     held_d = held_q;
-    if (ready_i) held_d = '0;
+    if (ready_i || clear_i) held_d = '0;
     else if (waitrequest_o) held_d = held_q + 1'b1;
   end
 

@@ -139,6 +139,7 @@ module halfspace
   ) u_fifo_agent (
       .clk_i,
       .rst_ni       (rst_n),
+      .clear_i      (clear),
       .enable_i     (enable),
       .write_i      (fifo_write_i),
       .writedata_i  (fifo_writedata_i),

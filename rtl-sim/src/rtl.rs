@@ -11,18 +11,15 @@ use crate::memories::Memories;
 /// The numbers of pixel units that there are builds for.
 pub const UNITS: [u32; 4] = [1, 2, 4, 8];
 
-/// VGA clocks a bus clock while a swap is hurried on: a frame then takes 6,563 bus clocks.
-const HURRY: u32 = 64;
-
 /// A device in simulation, just out of reset. Its memories hold anything until they are cleared.
 ///
 /// The bus clock runs while something is done on the bus and in [`clock`](Rtl::clock);
-/// VGA's clock stands still unless [`set_vga_ratio`](Rtl::set_vga_ratio) lets it run with it.
+/// VGA's clock stands still, but for [`set_vga_ratio`](Rtl::set_vga_ratio) and
+/// [`set_hurry`](Rtl::set_hurry).
 pub struct Rtl {
     calls: &'static Calls,
     sim: *mut c_void,
     units: u32,
-    vga_ratio: u32,
 }
 
 impl Rtl {
@@ -40,7 +37,7 @@ impl Rtl {
         };
         // Safety: makes a new simulation, which `drop` frees.
         let sim = unsafe { (calls.new)() };
-        Self { calls, sim, units, vga_ratio: 0 }
+        Self { calls, sim, units }
     }
 
     /// Returns how many pixel units it has.
@@ -56,9 +53,15 @@ impl Rtl {
 
     /// Lets VGA's clock run with the bus clock: `ratio` is VGA clocks a bus clock, in 1/65,536.
     pub fn set_vga_ratio(&mut self, ratio: u32) {
-        self.vga_ratio = ratio;
         // Safety: as above.
         unsafe { (self.calls.vga_ratio)(self.sim, ratio) }
+    }
+
+    /// Says whether VGA's clock runs 64 times as fast as the bus clock while a swap waits, so that
+    /// it comes soon. It does unless told otherwise.
+    pub fn set_hurry(&mut self, on: bool) {
+        // Safety: as above.
+        unsafe { (self.calls.hurry)(self.sim, on.into()) }
     }
 
     /// Turns the test-pattern switch.
@@ -115,43 +118,28 @@ impl Rtl {
         unsafe { (self.calls.write)(self.sim, offset, value) }
     }
 
-    /// Runs until the device is at rest; VGA's clock runs fast meanwhile, so that swaps come soon.
+    /// Runs until the device is at rest.
     ///
     /// # Panics
     /// When it has not come to rest within `limit` bus clocks.
     pub fn rest(&mut self, limit: u64) {
-        self.run_while(limit, |rtl| rtl.busy());
+        // Safety: as above.
+        let rests = unsafe { (self.calls.rest)(self.sim, limit) != 0 };
+        assert!(rests, "not at rest after {limit} clocks");
     }
 
-    /// Runs until the FIFO is empty, even if it then stands inside a packet; as
-    /// [`rest`](Rtl::rest) otherwise.
+    /// Runs until the FIFO is empty, even if the stream then stands inside a packet.
     ///
     /// # Panics
     /// When it is not empty within `limit` bus clocks.
     pub fn drain(&mut self, limit: u64) {
-        let depth = Capabilities(Port::read(self, Register::Capabilities)).fifo_depth();
-        self.run_while(limit, |rtl| Status(Port::read(rtl, Register::Status)).fifo_free() < depth);
-    }
-
-    fn run_while(&mut self, limit: u64, mut condition: impl FnMut(&mut Self) -> bool) {
-        let ratio = self.vga_ratio;
-        let mut left = limit;
-        while condition(self) {
-            // Only a waiting swap needs VGA.
-            let hurry = if self.swap_pending() { HURRY << 16 } else { ratio };
-            // Safety: as above.
-            unsafe { (self.calls.vga_ratio)(self.sim, hurry) };
-            self.clock(1);
-            left = left.checked_sub(1).unwrap_or_else(|| panic!("not at rest after {limit} clocks"));
-        }
-        self.set_vga_ratio(ratio);
-    }
-
-    /// Runs, with VGA's clock as it is set, until the device is at rest; returns whether it came to
-    /// rest within `limit` bus clocks.
-    pub fn settle(&mut self, limit: u64) -> bool {
+        let depth = u32::from(Capabilities(Port::read(self, Register::Capabilities)).fifo_depth());
+        let end = self.clocks() + limit;
         // Safety: as above.
-        unsafe { (self.calls.rest)(self.sim, limit) != 0 }
+        while unsafe { (self.calls.free_words)(self.sim) } < depth {
+            assert!(self.clocks() < end, "words in the FIFO after {limit} clocks");
+            self.clock(1);
+        }
     }
 
     /// Returns what the memories hold.

@@ -16,6 +16,8 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 constexpr int kTileWidth = UNITS >= 8 ? 4 : UNITS >= 2 ? 2 : 1;
 constexpr int kTileHeight = UNITS >= 4 ? 2 : 1;
+// A frame then takes 6,563 bus clocks, a line 12.
+constexpr uint32_t kHurry = 64 << 16;
 
 struct Sim {
   VerilatedContext context;
@@ -28,6 +30,8 @@ struct Sim {
   // VGA clocks a bus clock, in 1/65,536.
   uint32_t vga_ratio = 0;
   uint32_t vga_phase = 0;
+  // Whether VGA's clock runs fast while a swap waits, so that it comes soon.
+  bool hurry = true;
 
   void vga_clock() {
     model.vga_clk_i = 1;
@@ -45,7 +49,7 @@ struct Sim {
     model.eval();
     clocks++;
     tiles += model.debug_tile_o;
-    vga_phase += vga_ratio;
+    vga_phase += hurry && model.debug_swap_pending_o ? kHurry : vga_ratio;
     for (; vga_phase >= 65536; vga_phase -= 65536) vga_clock();
   }
 };
@@ -83,11 +87,13 @@ void NAME(_clock)(Sim* sim, uint64_t count) {
 }
 
 void NAME(_vga_ratio)(Sim* sim, uint32_t ratio) { sim->vga_ratio = ratio; }
+void NAME(_hurry)(Sim* sim, uint32_t on) { sim->hurry = on; }
 void NAME(_test_pattern)(Sim* sim, uint32_t on) { sim->model.test_pattern_i = on; }
 uint64_t NAME(_clocks)(const Sim* sim) { return sim->clocks; }
 uint64_t NAME(_tiles)(const Sim* sim) { return sim->tiles; }
 uint32_t NAME(_irq)(const Sim* sim) { return sim->model.irq_o; }
 uint32_t NAME(_busy)(const Sim* sim) { return sim->model.debug_busy_o; }
+uint32_t NAME(_free_words)(const Sim* sim) { return sim->model.debug_free_o; }
 uint32_t NAME(_swap_pending)(const Sim* sim) { return sim->model.debug_swap_pending_o; }
 
 // Writes a word to the aperture; returns for how many clocks it was held.

@@ -15,7 +15,7 @@ use rtl_sim::{Rtl, UNITS};
 fn clocks_for(rtl: &mut Rtl, words: &[u32]) -> u64 {
     let start = rtl.clocks();
     rtl.push(words);
-    rtl.rest(100_000_000);
+    rtl.rest(20_000_000);
     rtl.clocks() - start
 }
 

@@ -77,7 +77,7 @@ fn streams(units: u32) {
             }
             Feed::Blocked => {
                 for part in words.chunks(1000) {
-                    pair.rtl.drain(100_000_000);
+                    pair.rtl.drain(20_000_000);
                     pair.write(Register::Control, 0);
                     pair.push(part);
                     pair.write(Register::Control, Control::default().with_enable(true).0);

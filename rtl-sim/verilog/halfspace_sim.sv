@@ -36,6 +36,7 @@ module halfspace_sim
     output logic [PixelUnits-1:0][1:0][7:0]  debug_colour_o,
     output logic [PixelUnits-1:0][15:0]      debug_depth_o,
     output logic                             debug_busy_o,
+    output logic [15:0]                      debug_free_o,
     output logic                             debug_swap_pending_o,
     output logic                             debug_tile_o
 );
@@ -55,6 +56,7 @@ module halfspace_sim
   end
 
   assign debug_busy_o         = u_device.status.busy;
+  assign debug_free_o         = u_device.status.fifo_free;
   assign debug_swap_pending_o = u_device.status.swap_pending;
   assign debug_tile_o         = u_device.tile_valid;
 

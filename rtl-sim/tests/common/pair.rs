@@ -8,7 +8,7 @@ use raster_model::{Device, Memory};
 use rtl_sim::Rtl;
 
 /// Longest that anything a test pushes at once may take.
-const PATIENCE: u64 = 200_000_000;
+const PATIENCE: u64 = 20_000_000;
 
 pub struct Pair {
     pub rtl: Rtl,
