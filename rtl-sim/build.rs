@@ -20,7 +20,9 @@ fn main() {
         .map(|line| rtl.join(line))
         .collect();
     sources.push(top);
-    for path in sources.iter().chain([&list, &here.join("src/shim.cpp"), &rtl.join("lint/waivers.vlt"), &here.join("build.rs")]) {
+    for path in
+        sources.iter().chain([&list, &here.join("src/shim.cpp"), &rtl.join("lint/waivers.vlt"), &here.join("build.rs")])
+    {
         println!("cargo::rerun-if-changed={}", path.display());
     }
 

@@ -75,11 +75,14 @@ impl Frame {
             for column in 0..LINE_CLOCKS {
                 let pins = clock(rtl);
                 let visible = line < FRAME[0] && column < LINE[0];
-                let pulse = |at: usize, spans: [usize; 4]| (spans[0] + spans[1]..spans[0] + spans[1] + spans[2]).contains(&at);
+                let pulse =
+                    |at: usize, spans: [usize; 4]| (spans[0] + spans[1]..spans[0] + spans[1] + spans[2]).contains(&at);
                 let expected = (visible, !pulse(column, LINE), !pulse(line, FRAME));
                 let found = (pins.visible(), pins.hsync(), pins.vsync());
                 if found != expected {
-                    return Err(format!("line {line}, clock {column}: (visible, hsync, vsync) is {found:?}, not {expected:?}"));
+                    return Err(format!(
+                        "line {line}, clock {column}: (visible, hsync, vsync) is {found:?}, not {expected:?}"
+                    ));
                 }
                 if visible {
                     pixels.push(pins.rgb());

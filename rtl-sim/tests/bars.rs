@@ -28,7 +28,8 @@ fn sized_triangles(pixels: i32, count: usize) -> Vec<u32> {
     let reach = 16 * 3 * (f64::from(pixels)).sqrt() as i32 / 2;
     while words.len() < count * 11 {
         let (x, y) = (random.within(800, 4300), random.within(800, 3000));
-        let mut vertex = || [x + random.within(-reach, reach), y + random.within(-reach, reach), random.within(0, 65535)];
+        let mut vertex =
+            || [x + random.within(-reach, reach), y + random.within(-reach, reach), random.within(0, 65535)];
         let v = [vertex(), vertex(), vertex()];
         let area = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[2][0] - v[0][0]) * (v[1][1] - v[0][1]);
         if (area.abs() - goal).abs() > goal / 50 {
