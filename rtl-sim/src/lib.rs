@@ -1,0 +1,18 @@
+//! Halfspace's FPGA as Verilator sees it: the design in `rtl/` behind a Rust type.
+//!
+//! | module | holds |
+//! | --- | --- |
+//! | [`rtl`] | [`Rtl`]: bus writes and reads, clocks, and a look into the memories |
+//! | [`vga`] | [`Frame`]: a picture taken from the VGA pins, with its timing checked |
+//! | [`memories`] | [`Memories`]: the buffers as they stand |
+//!
+//! `build.rs` verilates the design for 1, 2, 4 and 8 pixel units, assertions on.
+
+mod calls;
+pub mod memories;
+pub mod rtl;
+pub mod vga;
+
+pub use memories::Memories;
+pub use rtl::{Rtl, UNITS};
+pub use vga::Frame;

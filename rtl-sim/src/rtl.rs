@@ -1,0 +1,184 @@
+//! The verilated device and its clocks.
+
+use std::ffi::c_void;
+
+use fpga_regs::Port;
+use fpga_regs::registers::{Capabilities, Register, Status};
+
+use crate::calls::{Calls, UNITS_1, UNITS_2, UNITS_4, UNITS_8};
+use crate::memories::Memories;
+
+/// The numbers of pixel units that there are builds for.
+pub const UNITS: [u32; 4] = [1, 2, 4, 8];
+
+/// A device in simulation, just out of reset. Its memories hold anything until they are cleared.
+///
+/// The bus clock runs while something is done on the bus and in [`clock`](Rtl::clock);
+/// VGA's clock stands still, but for [`set_vga_ratio`](Rtl::set_vga_ratio) and
+/// [`set_hurry`](Rtl::set_hurry).
+pub struct Rtl {
+    calls: &'static Calls,
+    sim: *mut c_void,
+    units: u32,
+}
+
+impl Rtl {
+    /// Returns a device with `units` pixel units, one of [`UNITS`].
+    ///
+    /// # Panics
+    /// For any other number.
+    pub fn new(units: u32) -> Self {
+        let calls = match units {
+            1 => &UNITS_1,
+            2 => &UNITS_2,
+            4 => &UNITS_4,
+            8 => &UNITS_8,
+            _ => panic!("no build has {units} pixel units: there are {UNITS:?}"),
+        };
+        // Safety: makes a new simulation, which `drop` frees.
+        let sim = unsafe { (calls.new)() };
+        Self { calls, sim, units }
+    }
+
+    /// Returns how many pixel units it has.
+    pub fn units(&self) -> u32 {
+        self.units
+    }
+
+    /// Runs the bus clock.
+    pub fn clock(&mut self, count: u64) {
+        // Safety: `sim` lives as long as `self`, here and in every call below.
+        unsafe { (self.calls.clock)(self.sim, count) }
+    }
+
+    /// Lets VGA's clock run with the bus clock: `ratio` is VGA clocks a bus clock, in 1/65,536.
+    pub fn set_vga_ratio(&mut self, ratio: u32) {
+        // Safety: as above.
+        unsafe { (self.calls.vga_ratio)(self.sim, ratio) }
+    }
+
+    /// Says whether VGA's clock runs 64 times as fast as the bus clock while a swap waits, so that
+    /// it comes soon. It does unless told otherwise.
+    pub fn set_hurry(&mut self, on: bool) {
+        // Safety: as above.
+        unsafe { (self.calls.hurry)(self.sim, on.into()) }
+    }
+
+    /// Turns the test-pattern switch.
+    pub fn set_test_pattern(&mut self, on: bool) {
+        // Safety: as above.
+        unsafe { (self.calls.test_pattern)(self.sim, on.into()) }
+    }
+
+    /// Returns how many bus clocks have run.
+    pub fn clocks(&self) -> u64 {
+        // Safety: as above.
+        unsafe { (self.calls.clocks)(self.sim) }
+    }
+
+    /// Returns how many tiles the traversal has visited.
+    pub fn tiles(&self) -> u64 {
+        // Safety: as above.
+        unsafe { (self.calls.tiles)(self.sim) }
+    }
+
+    /// Returns the interrupt line.
+    pub fn irq(&self) -> bool {
+        // Safety: as above.
+        unsafe { (self.calls.irq)(self.sim) != 0 }
+    }
+
+    /// Returns STATUS.busy, without a bus access.
+    pub fn busy(&self) -> bool {
+        // Safety: as above.
+        unsafe { (self.calls.busy)(self.sim) != 0 }
+    }
+
+    /// Returns STATUS.swap_pending, without a bus access.
+    pub fn swap_pending(&self) -> bool {
+        // Safety: as above.
+        unsafe { (self.calls.swap_pending)(self.sim) != 0 }
+    }
+
+    /// Writes a word to the aperture and returns for how many clocks the bus was held.
+    pub fn push_word(&mut self, word: u32) -> u64 {
+        // Safety: as above.
+        unsafe { (self.calls.push)(self.sim, word) }
+    }
+
+    /// Reads the word at a byte offset of the register agent, whether or not a register is there.
+    pub fn read_offset(&mut self, offset: u32) -> u32 {
+        // Safety: as above.
+        unsafe { (self.calls.read)(self.sim, offset) }
+    }
+
+    /// Writes the word at a byte offset of the register agent.
+    pub fn write_offset(&mut self, offset: u32, value: u32) {
+        // Safety: as above.
+        unsafe { (self.calls.write)(self.sim, offset, value) }
+    }
+
+    /// Runs until the device is at rest.
+    ///
+    /// # Panics
+    /// When it has not come to rest within `limit` bus clocks.
+    pub fn rest(&mut self, limit: u64) {
+        // Safety: as above.
+        let rests = unsafe { (self.calls.rest)(self.sim, limit) != 0 };
+        assert!(rests, "not at rest after {limit} clocks");
+    }
+
+    /// Runs until the FIFO is empty, even if the stream then stands inside a packet.
+    ///
+    /// # Panics
+    /// When it is not empty within `limit` bus clocks.
+    pub fn drain(&mut self, limit: u64) {
+        let depth = u32::from(Capabilities(Port::read(self, Register::Capabilities)).fifo_depth());
+        let end = self.clocks() + limit;
+        // Safety: as above.
+        while unsafe { (self.calls.free_words)(self.sim) } < depth {
+            assert!(self.clocks() < end, "words in the FIFO after {limit} clocks");
+            self.clock(1);
+        }
+    }
+
+    /// Returns what the memories hold.
+    pub fn memories(&mut self) -> Memories {
+        let front = Status(Port::read(self, Register::Status)).front_buffer();
+        let mut memories = Memories::zeroed(front.into());
+        let [first, second] = &mut memories.colours;
+        // Safety: each points to room for all of a screen's pixels.
+        unsafe {
+            (self.calls.memory)(self.sim, first.as_mut_ptr(), second.as_mut_ptr(), memories.depths.as_mut_ptr());
+        }
+        memories
+    }
+
+    /// Gives VGA one clock and returns its pins, as [`crate::vga::Pins`] reads them.
+    pub(crate) fn vga_clock(&mut self) -> u32 {
+        // Safety: as above.
+        unsafe { (self.calls.vga_clock)(self.sim) }
+    }
+}
+
+impl Drop for Rtl {
+    fn drop(&mut self) {
+        // Safety: made by `new`, freed once.
+        unsafe { (self.calls.free)(self.sim) }
+    }
+}
+
+impl Port for Rtl {
+    fn read(&mut self, register: Register) -> u32 {
+        self.read_offset(register as u32)
+    }
+
+    fn write(&mut self, register: Register, value: u32) {
+        self.write_offset(register as u32, value);
+    }
+
+    fn push(&mut self, words: &[u32]) {
+        // Safety: `words` is as long as it says.
+        unsafe { (self.calls.push_all)(self.sim, words.as_ptr(), words.len() as u64) }
+    }
+}

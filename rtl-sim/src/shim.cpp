@@ -1,0 +1,176 @@
+// One verilated build of the device behind a C interface; compiled once for each number of pixel
+// units, with UNITS, MODEL (the class) and HEADER given on the command line.
+#include <cstdint>
+#include <memory>
+
+#include HEADER
+#include "verilated.h"
+
+#define JOIN2(a, b, c) a##b##c
+#define JOIN(a, b, c) JOIN2(a, b, c)
+#define NAME(f) JOIN(halfspace_, UNITS, f)
+
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+constexpr int kTileWidth = UNITS >= 8 ? 4 : UNITS >= 2 ? 2 : 1;
+constexpr int kTileHeight = UNITS >= 4 ? 2 : 1;
+// A frame then takes 6,563 bus clocks, a line 12.
+constexpr uint32_t kHurry = 64 << 16;
+
+struct Sim {
+  VerilatedContext context;
+  // No pool of threads that would only wait.
+  bool one_thread = (context.threads(1), true);
+  MODEL model{&context, "halfspace"};
+  uint64_t clocks = 0;
+  uint64_t vga_clocks = 0;
+  uint64_t tiles = 0;
+  // VGA clocks a bus clock, in 1/65,536.
+  uint32_t vga_ratio = 0;
+  uint32_t vga_phase = 0;
+  // Whether VGA's clock runs fast while a swap waits, so that it comes soon.
+  bool hurry = true;
+
+  void vga_clock() {
+    model.vga_clk_i = 1;
+    model.eval();
+    model.vga_clk_i = 0;
+    model.eval();
+    vga_clocks++;
+  }
+
+  // Outputs are valid, for the inputs as they stand, before and after.
+  void clock() {
+    model.clk_i = 1;
+    model.eval();
+    model.clk_i = 0;
+    model.eval();
+    clocks++;
+    tiles += model.debug_tile_o;
+    vga_phase += hurry && model.debug_swap_pending_o ? kHurry : vga_ratio;
+    for (; vga_phase >= 65536; vga_phase -= 65536) vga_clock();
+  }
+};
+
+template <typename T>
+uint32_t bits(const T& port, int low, int width) {
+  if constexpr (std::is_integral_v<T>) {
+    return static_cast<uint32_t>((static_cast<uint64_t>(port) >> low) & ((uint64_t{1} << width) - 1));
+  } else {
+    return (port[low / 32] >> (low % 32)) & ((1u << width) - 1);
+  }
+}
+
+}  // namespace
+
+extern "C" {
+
+Sim* NAME(_new)() {
+  auto* sim = new Sim;
+  sim->model.rst_ni = 0;
+  sim->model.eval();
+  for (int i = 0; i < 4; i++) { sim->clock(); sim->vga_clock(); }
+  sim->model.rst_ni = 1;
+  for (int i = 0; i < 4; i++) { sim->clock(); sim->vga_clock(); }
+  return sim;
+}
+
+void NAME(_free)(Sim* sim) {
+  sim->model.final();
+  delete sim;
+}
+
+void NAME(_clock)(Sim* sim, uint64_t count) {
+  while (count--) sim->clock();
+}
+
+void NAME(_vga_ratio)(Sim* sim, uint32_t ratio) { sim->vga_ratio = ratio; }
+void NAME(_hurry)(Sim* sim, uint32_t on) { sim->hurry = on; }
+void NAME(_test_pattern)(Sim* sim, uint32_t on) { sim->model.test_pattern_i = on; }
+uint64_t NAME(_clocks)(const Sim* sim) { return sim->clocks; }
+uint64_t NAME(_tiles)(const Sim* sim) { return sim->tiles; }
+uint32_t NAME(_irq)(const Sim* sim) { return sim->model.irq_o; }
+uint32_t NAME(_busy)(const Sim* sim) { return sim->model.debug_busy_o; }
+uint32_t NAME(_free_words)(const Sim* sim) { return sim->model.debug_free_o; }
+uint32_t NAME(_swap_pending)(const Sim* sim) { return sim->model.debug_swap_pending_o; }
+
+// Writes a word to the aperture; returns for how many clocks it was held.
+uint64_t NAME(_push)(Sim* sim, uint32_t word) {
+  auto& model = sim->model;
+  model.fifo_write_i = 1;
+  model.fifo_writedata_i = word;
+  model.fifo_address_i = (model.fifo_address_i + 1) & 0x3ff;
+  model.eval();
+  uint64_t held = 0;
+  while (model.fifo_waitrequest_o) {
+    sim->clock();
+    held++;
+  }
+  sim->clock();
+  model.fifo_write_i = 0;
+  model.eval();
+  return held;
+}
+
+// Writes words back to back as long as the device takes them.
+void NAME(_push_all)(Sim* sim, const uint32_t* words, uint64_t count) {
+  while (count--) NAME(_push)(sim, *words++);
+}
+
+void NAME(_write)(Sim* sim, uint32_t offset, uint32_t value) {
+  auto& model = sim->model;
+  model.register_address_i = offset / 4;
+  model.register_write_i = 1;
+  model.register_writedata_i = value;
+  sim->clock();
+  model.register_write_i = 0;
+  model.eval();
+}
+
+uint32_t NAME(_read)(Sim* sim, uint32_t offset) {
+  auto& model = sim->model;
+  model.register_address_i = offset / 4;
+  model.register_read_i = 1;
+  sim->clock();
+  model.register_read_i = 0;
+  model.eval();
+  return model.register_readdata_o;
+}
+
+// Runs until the device is at rest; returns whether it came to rest within `limit` clocks.
+uint32_t NAME(_rest)(Sim* sim, uint64_t limit) {
+  while (sim->model.debug_busy_o) {
+    if (limit-- == 0) return 0;
+    sim->clock();
+  }
+  return 1;
+}
+
+// Reads the memories as they are, row 0 first; takes no time.
+void NAME(_memory)(Sim* sim, uint8_t* colour0, uint8_t* colour1, uint16_t* depth) {
+  auto& model = sim->model;
+  for (int row = 0; row < kHeight; row += kTileHeight) {
+    for (int column = 0; column < kWidth; column += kTileWidth) {
+      model.debug_index_i = row / kTileHeight * (kWidth / kTileWidth) + column / kTileWidth;
+      model.eval();
+      for (int k = 0; k < UNITS; k++) {
+        const int at = (row + k / kTileWidth) * kWidth + column + k % kTileWidth;
+        colour0[at] = bits(model.debug_colour_o, k * 16, 8);
+        colour1[at] = bits(model.debug_colour_o, k * 16 + 8, 8);
+        depth[at] = bits(model.debug_depth_o, k * 16, 16);
+      }
+    }
+  }
+}
+
+// Gives VGA a clock and returns its pins: red, green, blue in bits 23...0, then hsync, vsync, blank.
+uint32_t NAME(_vga_clock)(Sim* sim) {
+  sim->vga_clock();
+  const auto& model = sim->model;
+  return model.vga_red_o << 16 | model.vga_green_o << 8 | model.vga_blue_o | model.vga_hsync_no << 24 |
+         model.vga_vsync_no << 25 | model.vga_blank_no << 26;
+}
+
+}  // extern "C"

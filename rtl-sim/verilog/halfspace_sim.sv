@@ -1,0 +1,65 @@
+// The device and, in simulation only, a window into its pixel memories.
+//
+// `debug_index_i` names a tile; the outputs show its pixels, unit by unit, without a clock.
+`default_nettype none
+
+module halfspace_sim
+  import halfspace_pkg::*;
+#(
+    parameter int unsigned PixelUnits = 8,
+    parameter int unsigned FifoDepth = 1024,
+    parameter int unsigned FifoPatience = 1 << 22
+) (
+    input  logic        clk_i,
+    input  logic        rst_ni,
+    input  logic [9:0]  register_address_i,
+    input  logic        register_read_i,
+    output logic [31:0] register_readdata_o,
+    input  logic        register_write_i,
+    input  logic [31:0] register_writedata_i,
+    input  logic [9:0]  fifo_address_i,
+    input  logic        fifo_write_i,
+    input  logic [31:0] fifo_writedata_i,
+    output logic        fifo_waitrequest_o,
+    output logic        irq_o,
+    input  logic        vga_clk_i,
+    input  logic        test_pattern_i,
+    output logic [7:0]  vga_red_o,
+    output logic [7:0]  vga_green_o,
+    output logic [7:0]  vga_blue_o,
+    output logic        vga_hsync_no,
+    output logic        vga_vsync_no,
+    output logic        vga_blank_no,
+    output logic        vga_sync_no,
+
+    input  logic [16:0]                      debug_index_i,
+    output logic [PixelUnits-1:0][1:0][7:0]  debug_colour_o,
+    output logic [PixelUnits-1:0][15:0]      debug_depth_o,
+    output logic                             debug_busy_o,
+    output logic [15:0]                      debug_free_o,
+    output logic                             debug_swap_pending_o,
+    output logic                             debug_tile_o
+);
+
+  localparam int unsigned IndexWidth = $clog2(Width * Height / PixelUnits);
+
+  halfspace #(
+      .PixelUnits  (PixelUnits),
+      .FifoDepth   (FifoDepth),
+      .FifoPatience(FifoPatience)
+  ) u_device (.*);
+
+  for (genvar k = 0; k < PixelUnits; k++) begin : g_debug
+    assign debug_depth_o[k]     = u_device.g_unit[k].u_unit.u_depth.mem[debug_index_i[IndexWidth-1:0]];
+    assign debug_colour_o[k][0] = u_device.g_unit[k].u_unit.u_colour.mem[{debug_index_i[IndexWidth-1:0], 1'b0}];
+    assign debug_colour_o[k][1] = u_device.g_unit[k].u_unit.u_colour.mem[{debug_index_i[IndexWidth-1:0], 1'b1}];
+  end
+
+  assign debug_busy_o         = u_device.status.busy;
+  assign debug_free_o         = u_device.status.fifo_free;
+  assign debug_swap_pending_o = u_device.status.swap_pending;
+  assign debug_tile_o         = u_device.tile_valid;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,23 @@
+// Sources in the order that tools need: packages first. Paths are relative to this folder.
+halfspace_pkg.sv
+raster_pkg.sv
+ram_1w1r.sv
+synchronizer.sv
+reset_synchronizer.sv
+command_fifo.sv
+fifo_agent.sv
+register_agent.sv
+interrupts.sv
+counters.sv
+packet_decoder.sv
+triangle_setup.sv
+row_walker.sv
+span_queue.sv
+span_scanner.sv
+traversal.sv
+tile_evaluator.sv
+pixel_unit.sv
+buffer_control.sv
+vga_timing.sv
+vga_scanout.sv
+halfspace.sv

@@ -1,0 +1,145 @@
+// One pixel of every tile: its depth memory, its part of both colour buffers, and the depth test.
+//
+// Takes a pixel a clock and is never held back. Stages, counted on from the evaluator's two:
+//   3  entered with the depth saturated to 16 bits and the old depth read; compares them
+//   4  writes depth and colour
+// A pixel that enters one or two clocks behind another of the same place has read the memory
+// before that one's write; it compares with the write itself instead (forwarding).
+// Latency from input to memory 3 clocks. `tested_o` and `written_o` come with stage 4.
+//
+// The colour memory is read on VGA's clock: latency 1 from index and buffer to colour.
+`default_nettype none
+
+module pixel_unit
+  import halfspace_pkg::*;
+  import raster_pkg::*;
+#(
+    parameter int unsigned PixelUnits = 8,
+    localparam int unsigned Pixels = Width * Height / PixelUnits,
+    localparam int unsigned IndexWidth = $clog2(Pixels)
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic                  clear_i,
+
+    input  logic                  covered_i,
+    input  logic                  depth_test_i,
+    input  logic [IndexWidth-1:0] index_i,
+    input  value_t                depth_i,
+    input  logic [7:0]            colour_i,
+    input  logic                  back_buffer_i,  // may change only while idle_o is 1
+
+    output logic                  tested_o,
+    output logic                  written_o,
+    output logic                  idle_o,
+
+    input  logic                  vga_clk_i,
+    input  logic [IndexWidth-1:0] vga_index_i,
+    input  logic                  vga_buffer_i,
+    output logic [7:0]            vga_colour_o
+);
+
+  logic covered3_q, test3_q;
+  logic [IndexWidth-1:0] index3_q;
+  logic [15:0] depth3_q, depth3_d;
+  logic [7:0] colour3_q;
+  logic [15:0] depth_read;
+
+  logic write_d, tested_d;
+  logic [15:0] nearest;
+
+  logic write4_q, tested4_q, counted4_q;
+  logic [IndexWidth-1:0] index4_q;
+  logic [15:0] depth4_q;
+  logic [7:0] colour4_q;
+
+  logic write5_q;
+  logic [IndexWidth-1:0] index5_q;
+  logic [15:0] depth5_q;
+
+  // Bits 31...12 as a signed integer, saturated to 0...65,535.
+  always_comb begin
+    if (depth_i[31]) depth3_d = '0;
+    else if (depth_i[30:28] != '0) depth3_d = '1;
+    else depth3_d = depth_i[27:12];
+  end
+
+  always_comb begin
+    if (write4_q && index4_q == index3_q) nearest = depth4_q;
+    else if (write5_q && index5_q == index3_q) nearest = depth5_q;
+    else nearest = depth_read;
+  end
+
+  assign tested_d = covered3_q && test3_q && !clear_i;
+  assign write_d  = covered3_q && !clear_i && (!test3_q || depth3_q < nearest);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      covered3_q <= 1'b0;
+      write4_q   <= 1'b0;
+      tested4_q  <= 1'b0;
+      counted4_q <= 1'b0;
+      write5_q   <= 1'b0;
+    end else begin
+      covered3_q <= covered_i && !clear_i;
+      write4_q   <= write_d;
+      tested4_q  <= tested_d;
+      counted4_q <= write_d && test3_q;
+      write5_q   <= write4_q;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    test3_q   <= depth_test_i;
+    index3_q  <= index_i;
+    depth3_q  <= depth3_d;
+    colour3_q <= colour_i;
+
+    index4_q  <= index3_q;
+    depth4_q  <= depth3_q;
+    colour4_q <= colour3_q;
+
+    index5_q <= index4_q;
+    depth5_q <= depth4_q;
+  end
+
+  assign tested_o  = tested4_q;
+  assign written_o = counted4_q;
+  assign idle_o    = !covered3_q && !write4_q && !tested4_q;
+
+  ram_1w1r #(
+      .Width(16),
+      .Depth(Pixels)
+  ) u_depth (
+      .write_clk_i    (clk_i),
+      .write_i        (write4_q),
+      .write_address_i(index4_q),
+      .write_data_i   (depth4_q),
+      .read_clk_i     (clk_i),
+      .read_address_i (index_i),
+      .read_data_o    (depth_read)
+  );
+
+  // Both buffers in one memory, pixel by pixel in turn: no adder, and no block half empty.
+  ram_1w1r #(
+      .Width(8),
+      .Depth(2 * Pixels)
+  ) u_colour (
+      .write_clk_i    (clk_i),
+      .write_i        (write4_q),
+      .write_address_i({index4_q, back_buffer_i}),
+      .write_data_i   (colour4_q),
+      .read_clk_i     (vga_clk_i),
+      .read_address_i ({vga_index_i, vga_buffer_i}),
+      .read_data_o    (vga_colour_o)
+  );
+
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni && write4_q) assert (32'(index4_q) < Pixels) else $error("a write outside the memory");
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,91 @@
+// Types that the rasterizer's stages hand to each other, and how the screen is cut into tiles.
+//
+// A tile is what the pixel units draw in one clock: 1x1, 2x1, 2x2 or 4x2 pixels for 1, 2, 4 or 8
+// units, aligned to the screen's upper left corner. Unit k owns the pixels with
+// x mod tile_width = k mod tile_width and y mod tile_height = k / tile_width.
+`default_nettype none
+
+package raster_pkg;
+
+  localparam int unsigned Edges = 3;
+
+  function automatic int unsigned tile_width(int unsigned pixel_units);
+    return (pixel_units >= 8) ? 4 : (pixel_units >= 2) ? 2 : 1;
+  endfunction
+
+  function automatic int unsigned tile_height(int unsigned pixel_units);
+    return (pixel_units >= 4) ? 2 : 1;
+  endfunction
+
+  // An edge value or a depth, modulo 2^32.
+  typedef logic signed [31:0] value_t;
+  // An edge's step from pixel to pixel. The third edge's is minus the sum of two 16-bit ones.
+  typedef logic signed [17:0] step_t;
+  // The number of a tile column, of a tile row, and of a tile (row-major), for up to 320x240 tiles.
+  typedef logic [8:0] column_t;
+  typedef logic [7:0] row_t;
+  typedef logic [16:0] index_t;
+
+  // A triangle as its packet gives it, or a clear: the whole screen, edges and steps 0.
+  typedef struct packed {
+    logic                 depth_test;    // 0: a clear, writes every pixel and is not counted
+    logic [7:0]           colour;
+    column_t              first_column;  // the box, in pixels, both ends inclusive
+    column_t              last_column;
+    row_t                 first_row;
+    row_t                 last_row;
+    value_t [Edges-1:0]   edge_value;    // at the centre of the box's upper left pixel
+    step_t [Edges-1:0]    step_x;
+    step_t [Edges-1:0]    step_y;
+    value_t               depth;
+    value_t               depth_step_x;
+    value_t               depth_step_y;
+  } primitive_t;
+
+  // What stays the same over a primitive.
+  typedef struct packed {
+    logic               depth_test;
+    logic               exhaustive;    // visit every tile of the box: edge values might wrap
+    logic [7:0]         colour;
+    column_t            first_column;  // the box, in tiles
+    column_t            last_column;
+    logic [1:0]         left;          // pixels of the first tile column left of the box
+    logic [1:0]         right;         // last pixel of the last tile column inside the box
+    logic               top;           // whether the first tile row's upper pixel row is above the box
+    logic               bottom;        // last pixel row of the last tile row inside the box
+    step_t [Edges-1:0]  step_x;
+    step_t [Edges-1:0]  step_y;
+    value_t [Edges-1:0] reach;         // an edge's largest value in a tile minus that at its origin
+    value_t             depth_step_x;
+    value_t             depth_step_y;
+  } constants_t;
+
+  // A place on the screen: a tile, with each edge's largest value in it and the depth at its
+  // upper left pixel.
+  typedef struct packed {
+    value_t [Edges-1:0] largest;
+    value_t             depth;
+    column_t            column;
+    index_t             index;
+  } place_t;
+
+  // A tile row of a primitive, standing at its first tile that may be covered.
+  typedef struct packed {
+    logic   first;  // first row of a primitive: its constants come with it
+    logic   top;    // first tile row of the box
+    logic   bottom; // last tile row of the box
+    place_t place;
+  } span_start_t;
+
+  // A tile to draw.
+  typedef struct packed {
+    logic   at_left;   // in the box's first tile column, and so on
+    logic   at_right;
+    logic   at_top;
+    logic   at_bottom;
+    place_t place;
+  } tile_t;
+
+endpackage
+
+`default_nettype wire
