@@ -24,7 +24,10 @@ pub(super) fn clippy() -> anyhow::Result<()> {
 }
 
 pub(super) fn tests() -> anyhow::Result<()> {
-    run(&["test", "--workspace", "--exclude", WANTS_VERILATOR], "the failed test is named above; `cargo test NAME` runs it alone")
+    run(
+        &["test", "--workspace", "--exclude", WANTS_VERILATOR],
+        "the failed test is named above; `cargo test NAME` runs it alone",
+    )
 }
 
 /// The tests that start a QEMU of their own.
