@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use fpga_regs::packet::{Clear, FlatTriangle};
+use fpga_regs::packet::FlatTriangle;
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
 use geometry::{FaceLight, ScreenTransform, ScreenVertex, Sink, Transformed};
@@ -49,7 +49,7 @@ pub fn draw_frame<P: Port, W: Wait>(
     mut ticks: impl FnMut() -> u64,
 ) -> Result<FrameReport, RenderError> {
     let words_before = renderer.words_pushed();
-    renderer.push(&Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode())?;
+    renderer.clear(Rgb332::BLACK, DEPTH_FAR)?;
 
     let mesh = meshes.of(scene);
     let start = ticks();

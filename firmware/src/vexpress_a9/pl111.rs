@@ -1,6 +1,5 @@
 //! The display: a PL111 with two frames (ARM DDI 0293).
 
-use crate::cortex_a9::global_timer::GlobalTimer;
 use crate::mmio::{Register, Registers};
 use core::ptr::NonNull;
 
@@ -11,11 +10,6 @@ pub const HEIGHT: usize = 480;
 /// Pixels in a frame.
 pub const FRAME_PIXELS: usize = WIDTH * HEIGHT;
 
-/// How long a vertical blank is waited for: three frames at 60 Hz.
-const BLANK_MICROSECONDS: u32 = 50_000;
-
-/// The base address was taken over, which happens at the vertical blank.
-const STATUS_NEXT_BASE: u32 = 1 << 2;
 /// On, 24 bits in 32, a TFT panel, power on. BGR puts red into bits 23 to 16.
 const CONTROL: u32 = 1 << 0 | 0b101 << 1 | 1 << 5 | 1 << 8 | 1 << 11;
 /// 640 pixels a row, 96 clocks of synchronisation, 16 in front and 48 behind.
@@ -33,8 +27,6 @@ enum Offset {
     UpperBase = 0x10,
     Control = 0x18,
     InterruptMask = 0x1C,
-    RawStatus = 0x20,
-    InterruptClear = 0x28,
 }
 
 impl Register for Offset {
@@ -42,18 +34,6 @@ impl Register for Offset {
         self as usize
     }
 }
-
-/// The display did not take a new frame: no vertical blank came.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NoVerticalBlank;
-
-impl core::fmt::Display for NoVerticalBlank {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        formatter.write_str("the display gave no vertical blank within 50 ms")
-    }
-}
-
-impl core::error::Error for NoVerticalBlank {}
 
 /// A display of 640 × 480 pixels, each 0x00RRGGBB. One frame shows while the other is drawn.
 pub struct Display {
@@ -105,17 +85,6 @@ impl Display {
         unsafe { self.frames[self.back].as_mut() }
     }
 
-    /// Shows the back frame from the next vertical blank on, and waits for that, so that the
-    /// frame that becomes the back one is no longer read.
-    ///
-    /// # Errors
-    /// [`NoVerticalBlank`] after 50 ms. The frames have changed places all the same.
-    pub fn present(&mut self, timer: GlobalTimer) -> Result<(), NoVerticalBlank> {
-        self.registers.write(Offset::InterruptClear, STATUS_NEXT_BASE);
-        self.present_without_wait();
-        if timer.wait(BLANK_MICROSECONDS, || self.blank_passed()) { Ok(()) } else { Err(NoVerticalBlank) }
-    }
-
     /// Shows the back frame from the next vertical blank on, without waiting for it: what is
     /// drawn until then may show.
     pub fn present_without_wait(&mut self) {
@@ -123,12 +92,6 @@ impl Display {
         core::sync::atomic::fence(core::sync::atomic::Ordering::SeqCst);
         self.set_base(self.back);
         self.back = 1 - self.back;
-    }
-
-    /// Returns whether a vertical blank came since the last [`present`](Self::present) began.
-    #[must_use]
-    pub fn blank_passed(&self) -> bool {
-        self.registers.read(Offset::RawStatus) & STATUS_NEXT_BASE != 0
     }
 
     fn set_base(&self, frame: usize) {
