@@ -5,7 +5,7 @@ mod common;
 use common::pair::Pair;
 use common::random::Random;
 use common::shapes::{any_triangle, garbage_triangle, garbage_words};
-use fpga_regs::packet::{Clear, Fence, swap};
+use fpga_regs::packet::{Clear, Fence, FlatTriangle, TriangleShape, swap};
 use fpga_regs::registers::{Control, Register};
 use fpga_regs::screen::Rgb332;
 
@@ -47,8 +47,8 @@ fn streams(units: u32) {
                 32..42 => {
                     let triangle = any_triangle(&mut random);
                     for _ in 0..4 {
-                        let depth = triangle.depth.wrapping_add(fixed_depth(random.within(-4, 4)));
-                        let again = fpga_regs::packet::FlatTriangle { depth, ..triangle };
+                        let depth = triangle.shape.depth.wrapping_add(fixed_depth(random.within(-4, 4)));
+                        let again = FlatTriangle { shape: TriangleShape { depth, ..triangle.shape }, ..triangle };
                         words.extend(again.with_colour(Rgb332(random.word() as u8)).encode());
                         drawn += 1;
                     }

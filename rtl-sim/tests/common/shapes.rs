@@ -1,6 +1,6 @@
 //! Triangle packets from vertices, and words that no setup makes.
 
-use fpga_regs::packet::{EdgeSteps, FlatTriangle, Header, Kind, Span};
+use fpga_regs::packet::{EdgeSteps, FlatTriangle, Header, Kind, Span, TriangleShape};
 use fpga_regs::screen::{GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
 
 use super::random::Random;
@@ -62,13 +62,15 @@ pub fn triangle(mut vertices: [Vertex; 3], colour: u8, loose: bool) -> Option<Fl
     let q = |value: i64| PacketDepth::from_bits(value as i32);
     Some(FlatTriangle {
         colour: Rgb332(colour),
-        columns: Span::new(left as u16, right as u16),
-        rows: Span::new(top as u16, bottom as u16),
-        edges,
-        steps: [steps[0], steps[1]],
-        depth: q(depth),
-        depth_step_x: q(step_x),
-        depth_step_y: q(step_y),
+        shape: TriangleShape {
+            columns: Span::new(left as u16, right as u16),
+            rows: Span::new(top as u16, bottom as u16),
+            edges,
+            steps: [steps[0], steps[1]],
+            depth: q(depth),
+            depth_step_x: q(step_x),
+            depth_step_y: q(step_y),
+        },
     })
 }
 
