@@ -5,27 +5,27 @@
 // box and all three sums are 0 or more. All modulo 2^32. Latency 2 clocks.
 `default_nettype none
 
-module tile_evaluator
-  import raster_pkg::*;
-#(
+module tile_evaluator #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic       clk_i,
-    input  logic       rst_ni,
-    input  logic       clear_i,
+    input  logic                                clk_i,
+    input  logic                                rst_ni,
+    input  logic                                clear_i,
 
-    input  logic       valid_i,
-    input  tile_t      tile_i,
-    input  constants_t constants_i,
+    input  logic                                valid_i,
+    input  raster_pkg::tile_t                   tile_i,
+    input  raster_pkg::constants_t              constants_i,
 
-    output logic [PixelUnits-1:0]   covered_o,
-    output value_t [PixelUnits-1:0] depth_o,
-    output index_t                  index_o,
-    output logic [7:0]              colour_o,
-    output logic                    depth_test_o,
+    output logic [PixelUnits-1:0]               covered_o,
+    output raster_pkg::value_t [PixelUnits-1:0] depth_o,
+    output raster_pkg::index_t                  index_o,
+    output logic [7:0]                          colour_o,
+    output logic                                depth_test_o,
 
-    output logic idle_o
+    output logic                                idle_o
 );
+
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
 
