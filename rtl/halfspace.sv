@@ -6,10 +6,7 @@
 // Resets are asynchronous and released here with their clocks.
 `default_nettype none
 
-module halfspace
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module halfspace #(
     parameter int unsigned PixelUnits = 8,  // 1, 2, 4 or 8
     parameter int unsigned FifoDepth = 1024,  // words; a power of two, 32 to 32,768
     parameter int unsigned FifoPatience = 1 << 22,  // clocks that a word waits at most
@@ -41,6 +38,9 @@ module halfspace
     output logic        vga_blank_no,
     output logic        vga_sync_no
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned LevelWidth = $clog2(FifoDepth) + 1;
   localparam int unsigned IndexWidth = $clog2(Width * Height / PixelUnits);
@@ -222,7 +222,9 @@ module halfspace
       .idle_o      (evaluator_idle)
   );
 
-  for (genvar k = 0; k < PixelUnits; k++) begin : g_unit
+  genvar k;
+  generate
+  for (k = 0; k < PixelUnits; k++) begin : g_unit
     pixel_unit #(
         .PixelUnits(PixelUnits)
     ) u_unit (
@@ -247,6 +249,7 @@ module halfspace
         .vga_colour_o (vga_colour[k])
     );
   end
+  endgenerate
 
   assign drained = traversal_idle && evaluator_idle && (&unit_idle) && counters_idle;
   assign busy    = !drained || primitive_valid || swap_valid || fence_valid || mid_packet;

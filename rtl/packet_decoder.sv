@@ -12,33 +12,33 @@
 // bad word behind it when the packet's last word is.
 `default_nettype none
 
-module packet_decoder
+module packet_decoder (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   clear_i,
+    input  logic                   enable_i,
+
+    input  logic                   word_valid_i,
+    output logic                   word_ready_o,
+    input  logic [31:0]            word_i,
+
+    output logic                   primitive_valid_o,
+    input  logic                   primitive_ready_i,
+    output raster_pkg::primitive_t primitive_o,
+
+    output logic                   swap_valid_o,
+    input  logic                   swap_ready_i,
+
+    output logic                   fence_valid_o,
+    input  logic                   fence_ready_i,
+    output logic [31:0]            fence_tag_o,
+
+    output logic                   mid_packet_o,
+    output logic                   bad_packet_o
+);
+
   import halfspace_pkg::*;
   import raster_pkg::*;
-(
-    input  logic        clk_i,
-    input  logic        rst_ni,
-    input  logic        clear_i,
-    input  logic        enable_i,
-
-    input  logic        word_valid_i,
-    output logic        word_ready_o,
-    input  logic [31:0] word_i,
-
-    output logic        primitive_valid_o,
-    input  logic        primitive_ready_i,
-    output primitive_t  primitive_o,
-
-    output logic        swap_valid_o,
-    input  logic        swap_ready_i,
-
-    output logic        fence_valid_o,
-    input  logic        fence_ready_i,
-    output logic [31:0] fence_tag_o,
-
-    output logic        mid_packet_o,
-    output logic        bad_packet_o
-);
 
   // The words behind the header, youngest at 0, so that a packet's place does not depend on its kind.
   logic [PayloadWordsMax-1:0][31:0] payload_q;

@@ -10,13 +10,10 @@
 // The colour memory is read on VGA's clock: latency 1 from index and buffer to colour.
 `default_nettype none
 
-module pixel_unit
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module pixel_unit #(
     parameter int unsigned PixelUnits = 8,
-    localparam int unsigned Pixels = Width * Height / PixelUnits,
-    localparam int unsigned IndexWidth = $clog2(Pixels)
+    // Follows from the others; never given.
+    parameter int unsigned IndexWidth = $clog2(halfspace_pkg::Width * halfspace_pkg::Height / PixelUnits)
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
@@ -25,8 +22,8 @@ module pixel_unit
     input  logic                  covered_i,
     input  logic                  depth_test_i,
     input  logic [IndexWidth-1:0] index_i,
-    input  value_t                depth_i,
-    input  wholes_t               plane_i,        // the colour, if `shaded_i`
+    input  raster_pkg::value_t    depth_i,
+    input  raster_pkg::wholes_t   plane_i,        // the colour, if `shaded_i`
     input  logic [3:0]            threshold_i,    // and its dither
     input  logic                  shaded_i,
     input  logic [7:0]            colour_i,       // else
@@ -41,6 +38,11 @@ module pixel_unit
     input  logic                  vga_buffer_i,
     output logic [7:0]            vga_colour_o
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
+
+  localparam int unsigned Pixels = Width * Height / PixelUnits;
 
   logic covered3_q, test3_q;
   logic [IndexWidth-1:0] index3_q;

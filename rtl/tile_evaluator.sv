@@ -5,31 +5,31 @@
 // box and all three sums are 0 or more. All modulo 2^32, colours modulo 2^21. Latency 2 clocks.
 `default_nettype none
 
-module tile_evaluator
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module tile_evaluator #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic       clk_i,
-    input  logic       rst_ni,
-    input  logic       clear_i,
+    input  logic                                 clk_i,
+    input  logic                                 rst_ni,
+    input  logic                                 clear_i,
 
-    input  logic       valid_i,
-    input  tile_t      tile_i,
-    input  constants_t constants_i,
+    input  logic                                 valid_i,
+    input  raster_pkg::tile_t                    tile_i,
+    input  raster_pkg::constants_t               constants_i,
 
-    output logic [PixelUnits-1:0]   covered_o,
-    output value_t [PixelUnits-1:0] depth_o,
-    output index_t                  index_o,
-    output wholes_t [PixelUnits-1:0] plane_o,      // the colour, if it is `shaded_o`
-    output logic [PixelUnits-1:0][3:0] threshold_o,  // and its dither
-    output logic                    shaded_o,
-    output logic [7:0]              colour_o,     // else
-    output logic                    depth_test_o,
+    output logic [PixelUnits-1:0]                covered_o,
+    output raster_pkg::value_t [PixelUnits-1:0]  depth_o,
+    output raster_pkg::index_t                   index_o,
+    output raster_pkg::wholes_t [PixelUnits-1:0] plane_o,      // the colour, if it is `shaded_o`
+    output logic [PixelUnits-1:0][3:0]           threshold_o,  // and its dither
+    output logic                                 shaded_o,
+    output logic [7:0]                           colour_o,     // else
+    output logic                                 depth_test_o,
 
-    output logic idle_o
+    output logic                                 idle_o
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
   localparam int unsigned TileHeight = tile_height(PixelUnits);

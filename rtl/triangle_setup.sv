@@ -7,28 +7,28 @@
 // hold a pixel inside that edge: largest = value at the tile's upper left pixel + reach.
 `default_nettype none
 
-module triangle_setup
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module triangle_setup #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic       clk_i,
-    input  logic       rst_ni,
-    input  logic       clear_i,
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   clear_i,
 
-    input  logic       valid_i,
-    output logic       ready_o,
-    input  primitive_t primitive_i,
+    input  logic                   valid_i,
+    output logic                   ready_o,
+    input  raster_pkg::primitive_t primitive_i,
 
-    output logic       valid_o,
-    input  logic       ready_i,
-    output constants_t constants_o,
-    output place_t     place_o,
-    output row_t       rows_o,       // tile rows after the first
+    output logic                   valid_o,
+    input  logic                   ready_i,
+    output raster_pkg::constants_t constants_o,
+    output raster_pkg::place_t     place_o,
+    output raster_pkg::row_t       rows_o,  // tile rows after the first
 
-    output logic       idle_o
+    output logic                   idle_o
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
   localparam int unsigned TileHeight = tile_height(PixelUnits);
