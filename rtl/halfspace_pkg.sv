@@ -68,7 +68,7 @@ package halfspace_pkg;
     logic [0:0] swap_interrupt;  // Interrupt when a swap took place.
     logic [0:0] low_water_interrupt;  // Interrupt when the FIFO's level falls to LOW_WATER.
     logic [5:0] unused_2;
-    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front. The other bits of the same write take effect after it.
+    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front; a triangle or clear under way may stay half drawn. The other bits of the same write take effect after it.
     logic [0:0] enable;  // Takes words from the FIFO. While 0 the FIFO fills and nothing is drawn; a packet of which some words have come waits for the others.
   } control_t;
 
@@ -96,7 +96,7 @@ package halfspace_pkg;
   // Error flags.
   typedef struct packed {
     logic [29:0] unused_2;
-    logic [0:0] fifo_overflow;  // A word came while the FIFO was full; it was dropped.
+    logic [0:0] fifo_overflow;  // A word came while the FIFO was full and the device disabled, or had waited at the full FIFO for 2^22 clocks of the bus, or came after such a one before the FIFO had space again; it was dropped.
     logic [0:0] bad_packet;  // A packet of unknown kind, wrong length, with a reserved bit set or a box outside the screen. It was skipped by its length.
   } errors_t;
 

@@ -164,11 +164,8 @@ module packet_decoder (
 
   // Three channels from the word of that number behind the header, and the next.
   function automatic channels_t channels(int unsigned low_word);
-    channels_low_t low;
-    channels_high_t high;
-    low  = channels_low_t'(payload_q[GouraudTriangleWords-1-low_word]);
-    high = channels_high_t'(payload_q[GouraudTriangleWords-2-low_word]);
-    return '{red: low.red, green: {high.green_high, low.green_low}, blue: high.blue};
+    // Red lowest, then green, then blue, and a spare bit on top.
+    return {payload_q[GouraudTriangleWords-2-low_word][30:0], payload_q[GouraudTriangleWords-1-low_word]};
   endfunction
 
   assign is_triangle = kind_q == KindFlatTriangle || kind_q == KindGouraudTriangle;

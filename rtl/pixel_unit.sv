@@ -81,11 +81,8 @@ module pixel_unit #(
   // The sums are at most 255.
   function automatic logic [7:0] dithered(logic [7:0] red, logic [7:0] green, logic [7:0] blue,
                                           logic [3:0] threshold);
-    logic [7:0] red_sum, green_sum, blue_sum;
-    red_sum   = red + {3'b0, threshold, 1'b1};
-    green_sum = green + {3'b0, threshold, 1'b1};
-    blue_sum  = blue + {2'b0, threshold, 2'b10};
-    return {red_sum[7:5], green_sum[7:5], blue_sum[7:6]};
+    return {3'((red + {3'b0, threshold, 1'b1}) >> 5), 3'((green + {3'b0, threshold, 1'b1}) >> 5),
+            2'((blue + {2'b0, threshold, 2'b10}) >> 6)};
   endfunction
 
   assign colour4_d = shaded3_q ? dithered(red3_q, green3_q, blue3_q, threshold3_q) : colour3_q;

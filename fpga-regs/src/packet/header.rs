@@ -73,7 +73,7 @@ impl Kind {
             },
             Kind::Swap => PacketInfo {
                 name: "SWAP",
-                doc: "Makes the back buffer the front one at the next vertical blank. What follows waits for it and goes to the other buffer.",
+                doc: "Makes the back buffer the front one at the next vertical blank. What follows waits for it and goes to the other buffer. There is at most one swap in a vertical blank.",
                 words: &[],
             },
             Kind::Fence => PacketInfo {
