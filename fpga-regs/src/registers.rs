@@ -3,9 +3,7 @@
 //! Offsets are from the start of the agent, which is 0xFF20_0000 on the DE1-SoC. The tables on
 //! the generated page `docs/registers.md` come from here.
 
-use volatile_register::{RO, RW};
-
-use crate::layout::Field;
+pub use crate::layout::{Access, RegisterInfo};
 
 /// What ID reads: "HALF" in ASCII, most significant byte first.
 pub const ID_HALF: u32 = 0x4841_4c46;
@@ -13,34 +11,6 @@ pub const ID_HALF: u32 = 0x4841_4c46;
 pub const VERSION_MAJOR: u16 = 1;
 /// The contract's minor version: it grows with every compatible addition.
 pub const VERSION_MINOR: u16 = 0;
-
-/// How a register answers a write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    /// Read only: a write is ignored.
-    ReadOnly,
-    /// Reads back what was written (but for bits documented otherwise).
-    ReadWrite,
-    /// A one clears the bit, a zero leaves it.
-    WriteOneToClear,
-}
-
-/// A register's row in the table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RegisterInfo {
-    /// Name in upper case, as in the SystemVerilog package.
-    pub name: &'static str,
-    /// Byte offset from the agent's start.
-    pub offset: usize,
-    /// How it answers a write.
-    pub access: Access,
-    /// Value after reset, where it is the same on every device.
-    pub reset: Option<u32>,
-    /// What it holds.
-    pub doc: &'static str,
-    /// Its fields; empty when it is one 32-bit number.
-    pub fields: &'static [Field],
-}
 
 word! {
     /// VERSION: the contract that this FPGA was built to.
@@ -136,57 +106,13 @@ word! {
     }
 }
 
-macro_rules! registers {
-    ($(
-        $(#[doc = $doc:literal])+
-        $offset:literal $name:ident $variant:ident $field:ident : $cell:ident $access:ident $reset:expr, $fields:expr;
-    )+) => {
-        /// The registers as they lie in memory.
-        ///
-        /// Never made: a [`MmioPort`](crate::MmioPort) points at the real one.
-        #[repr(C)]
-        pub struct RegisterBlock {
-            $($(#[doc = $doc])+ pub $field: $cell<u32>,)+
-        }
-
-        $(const _: () = assert!(core::mem::offset_of!(RegisterBlock, $field) == $offset, concat!("offset of ", stringify!($name)));)+
-
-        /// A register by name; the discriminant is its byte offset.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        #[repr(usize)]
-        pub enum Register {
-            $($(#[doc = $doc])+ $variant = $offset,)+
-        }
-
-        impl Register {
-            /// All registers, by rising offset.
-            pub const ALL: &'static [Register] = &[$(Register::$variant),+];
-
-            /// Returns the register at a byte offset, if there is one.
-            pub fn at(offset: usize) -> Option<Self> {
-                Self::ALL.iter().copied().find(|register| *register as usize == offset)
-            }
-
-            /// Returns the register's row in the table.
-            pub fn info(self) -> &'static RegisterInfo {
-                &REGISTERS[self as usize / 4]
-            }
-        }
-
-        /// The register table, by rising offset.
-        pub const REGISTERS: &[RegisterInfo] = &[$(RegisterInfo {
-            name: stringify!($name),
-            offset: $offset,
-            access: Access::$access,
-            reset: $reset,
-            doc: concat!($($doc),+),
-            fields: $fields,
-        }),+];
-    };
-}
-
 registers! {
+    /// The registers as they lie in memory.
+    ///
+    /// Never made: a [`MmioPort`](crate::MmioPort) points at the real one.
+    RegisterBlock
+    /// A register by name; the discriminant is its byte offset.
+    Register REGISTERS;
     /// Identity: reads 0x48414C46, "HALF". Checked before anything else is touched.
     0x00 ID Id id: RO ReadOnly Some(ID_HALF), &[];
     /// Version of the contract.

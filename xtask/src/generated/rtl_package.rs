@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use fpga_regs::layout::Field;
 use fpga_regs::packet::{Channels, Header, Kind, Packet, TriangleShape};
-use fpga_regs::registers::{ID_HALF, REGISTERS, VERSION_MAJOR, VERSION_MINOR};
+use fpga_regs::registers::{ID_HALF, REGISTERS, RegisterInfo, VERSION_MAJOR, VERSION_MINOR};
 use fpga_regs::screen;
 
 /// Returns the package.
@@ -71,13 +71,18 @@ fn registers(package: &mut String) {
         format!("16'd{VERSION_MINOR}"),
         "grows with compatible additions",
     );
+    register_table(package, REGISTERS);
+}
+
+/// An agent's registers: an enum of their offsets, and a structure for each that has fields.
+pub(super) fn register_table(package: &mut String, table: &[RegisterInfo]) {
     package.push_str("  typedef enum logic [7:0] {\n");
-    for (index, register) in REGISTERS.iter().enumerate() {
-        let comma = if index + 1 < REGISTERS.len() { "," } else { "" };
+    for (index, register) in table.iter().enumerate() {
+        let comma = if index + 1 < table.len() { "," } else { "" };
         let _ = writeln!(package, "    Reg{} = 8'h{:02x}{comma}", camel(register.name), register.offset);
     }
     package.push_str("  } register_e;\n\n");
-    for register in REGISTERS.iter().filter(|register| !register.fields.is_empty()) {
+    for register in table.iter().filter(|register| !register.fields.is_empty()) {
         structure(package, &register.name.to_lowercase(), register.doc, register.fields);
     }
 }
