@@ -76,8 +76,10 @@ module halfspace #(
   logic [PixelUnits-1:0] covered, tested, written, unit_idle;
   value_t [PixelUnits-1:0] pixel_depth;
   index_t index;
+  wholes_t [PixelUnits-1:0] pixel_plane;
+  logic [PixelUnits-1:0][3:0] threshold;
   logic [7:0] colour;
-  logic depth_test;
+  logic depth_test, shaded;
 
   logic front, swapped, fenced;
   logic vertical_blank, swap_window;
@@ -212,6 +214,9 @@ module halfspace #(
       .covered_o   (covered),
       .depth_o     (pixel_depth),
       .index_o     (index),
+      .plane_o     (pixel_plane),
+      .threshold_o (threshold),
+      .shaded_o    (shaded),
       .colour_o    (colour),
       .depth_test_o(depth_test),
       .idle_o      (evaluator_idle)
@@ -230,6 +235,9 @@ module halfspace #(
         .depth_test_i (depth_test),
         .index_i      (index[IndexWidth-1:0]),
         .depth_i      (pixel_depth[k]),
+        .plane_i      (pixel_plane[k]),
+        .threshold_i  (threshold[k]),
+        .shaded_i     (shaded),
         .colour_i     (colour),
         .back_buffer_i(!front),
         .tested_o     (tested[k]),

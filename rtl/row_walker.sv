@@ -77,9 +77,15 @@ module row_walker #(
     to_the_left.depth   = place_q.depth - constants_q.depth_step_x * value_t'(TileWidth);
     to_the_right.depth  = place_q.depth + constants_q.depth_step_x * value_t'(TileWidth);
     below.depth         = place_q.depth + constants_q.depth_step_y * value_t'(TileHeight);
+    to_the_left.plane   = difference(place_q.plane, channels_across(constants_q.plane_step_x, TileWidth));
+    to_the_right.plane  = sum(place_q.plane, channels_across(constants_q.plane_step_x, TileWidth));
+    below.plane         = sum(place_q.plane, channels_across(constants_q.plane_step_y, TileHeight));
     to_the_left.column  = place_q.column - 1'b1;
     to_the_right.column = place_q.column + 1'b1;
     below.column        = place_q.column;
+    to_the_left.row     = place_q.row;
+    to_the_right.row    = place_q.row;
+    below.row           = place_q.row + 1'b1;
     to_the_left.index   = place_q.index - 1'b1;
     to_the_right.index  = place_q.index + 1'b1;
     below.index         = place_q.index + TilesPerRow;

@@ -42,7 +42,9 @@ module span_scanner #(
       end
     end
     to_the_right.depth  = place_q.depth + constants_q.depth_step_x * value_t'(TileWidth);
+    to_the_right.plane  = sum(place_q.plane, channels_across(constants_q.plane_step_x, TileWidth));
     to_the_right.column = place_q.column + 1'b1;
+    to_the_right.row    = place_q.row;
     to_the_right.index  = place_q.index + 1'b1;
   end
 

@@ -49,7 +49,7 @@ word! {
     Control {
         /// Takes words from the FIFO. While 0 the FIFO fills and nothing is drawn; a packet of which some words have come waits for the others.
         enable / with_enable: [0:0] bool,
-        /// Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front. The other bits of the same write take effect after it.
+        /// Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front; a triangle or clear under way may stay half drawn. The other bits of the same write take effect after it.
         reset / with_reset: [1:1] bool,
         /// Interrupt when the FIFO's level falls to LOW_WATER.
         low_water_interrupt / with_low_water_interrupt: [8:8] bool,
@@ -101,7 +101,7 @@ word! {
     Errors {
         /// A packet of unknown kind, wrong length, with a reserved bit set or a box outside the screen. It was skipped by its length.
         bad_packet / with_bad_packet: [0:0] bool,
-        /// A word came while the FIFO was full; it was dropped.
+        /// A word came while the FIFO was full and the device disabled, or had waited at the full FIFO for 2^22 clocks of the bus, or came after such a one before the FIFO had space again; it was dropped.
         fifo_overflow / with_fifo_overflow: [1:1] bool,
     }
 }

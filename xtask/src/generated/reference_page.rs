@@ -113,8 +113,16 @@ fn packets(page: &mut String) {
          | depth and its steps | signed Q20.12 modulo 2^32 | any; at a covered pixel the sum is in −1…65,536 |\n\n\
          A pixel is inside where all three edge values are 0 or more; the third edge's steps are minus the sum of\n\
          the others'. Its depth is bits 31…12 of the sum, saturated to 0…65,535; it is drawn when that is less\n\
-         than the depth buffer holds.\n",
+         than the depth buffer holds.\n\n\
+         A channel of a Gouraud triangle is bits 20…12 of its sum: up to 255 as they are, 256…383 are taken for 255,\n\
+         384…511 for 0. With v such a channel and t the threshold of the pixel below, red and green are\n\
+         (v − ⌊v/8⌋ + 2t + 1) / 32 and blue is (v − ⌊v/4⌋ + 4t + 2) / 64, fractions dropped.\n\n\
+         | y mod 4 | x mod 4 = 0 | 1 | 2 | 3 |\n| --- | --- | --- | --- | --- |\n",
     );
+    for (row, thresholds) in screen::DITHER.iter().enumerate() {
+        let [first, second, third, fourth] = thresholds;
+        let _ = writeln!(page, "| {row} | {first} | {second} | {third} | {fourth} |");
+    }
 }
 
 fn sizes(page: &mut String) {
