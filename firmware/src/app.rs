@@ -144,7 +144,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
             },
             HostMessage::Run => self.stepping = false,
             #[cfg(all(target_arch = "arm", feature = "fault-injection"))]
-            HostMessage::Fault(fault) => crate::cortex_a9::fault_injection::inject(fault),
+            HostMessage::Fault(fault) => crate::armv7a::fault_injection::inject(fault),
             #[cfg(not(all(target_arch = "arm", feature = "fault-injection")))]
             HostMessage::Fault(_) => {
                 let _ = writeln!(self.board.console(), "link: this firmware commits no faults");
