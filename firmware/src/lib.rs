@@ -6,6 +6,7 @@
 //! | [`viewer`] | from what the controllers say to matrices |
 //! | [`scene`] | what there is to look at |
 //! | [`frame`] | one frame: a mesh to packets, and these to the FPGA |
+//! | [`intake`] | what controllers say, taken in and tallied |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
 //! | [`armv7a`] | what every board shares: start-up, MMU, L1 caches, fault reports |
@@ -38,6 +39,7 @@ pub mod cortex_a7;
 pub mod cortex_a9;
 pub mod de1_soc;
 pub mod frame;
+pub mod intake;
 pub mod link;
 pub mod mmio;
 pub mod pl011;

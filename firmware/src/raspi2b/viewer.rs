@@ -1,6 +1,5 @@
 //! The board as the application wants it.
 
-use controls::Controls;
 use embedded_io::{Read, ReadReady, Write};
 
 use super::Board as Drivers;
@@ -10,6 +9,7 @@ use super::system_timer::{Alarm, HERTZ, SystemTimer};
 use crate::app::{Application, Memory};
 use crate::armv7a::sleep::sleep_unless;
 use crate::board::Board;
+use crate::intake::Intake;
 use crate::pl011::Link;
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
 
@@ -55,7 +55,7 @@ impl Board for ViewerBoard {
         &mut self.console
     }
 
-    fn poll_controllers(&mut self, _: &mut Controls) -> u32 {
+    fn poll_controllers(&mut self, _: &mut Intake) -> u32 {
         0
     }
 

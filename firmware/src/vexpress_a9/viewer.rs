@@ -1,6 +1,6 @@
 //! The board as the application wants it.
 
-use controls::Controls;
+use controls::Report;
 use embedded_hal::digital::OutputPin;
 use embedded_io::{Read, ReadReady, Write};
 
@@ -12,6 +12,7 @@ use crate::armv7a::sleep::sleep_unless;
 use crate::board::Board;
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
 use crate::cortex_a9::private_timer::PrivateTimer;
+use crate::intake::Intake;
 use crate::pl011::{Console, Link};
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
 
@@ -61,10 +62,10 @@ impl Board for ViewerBoard {
         &mut self.console
     }
 
-    fn poll_controllers(&mut self, controls: &mut Controls) -> u32 {
+    fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
         let mut unreadable = 0;
         while let Some(report) = self.keyboard.poll() {
-            unreadable += u32::from(controls.accept_keyboard(&report).is_err());
+            unreadable += u32::from(intake.accept(Report::Keyboard(&report)).is_err());
         }
         unreadable
     }
