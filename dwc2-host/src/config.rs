@@ -22,12 +22,16 @@ pub struct Config {
     pub speed_limit: SpeedLimit,
     /// The ULPI PHY drives an external supply of VBUS (GUSBCFG bit 20); without effect on other PHYs.
     pub external_vbus: bool,
+    /// Microseconds after which an interrupt or split channel that has not halted by itself is a
+    /// [`ChannelStuck`](crate::Fault::ChannelStuck); `None` waits for ever. The core halts it within two frames; QEMU's model
+    /// keeps one running until its device has something to say, where that device is one of the PC's.
+    pub halt_limit_us: Option<u32>,
 }
 
 impl Config {
     /// High speed, VBUS from an external supply: what the DE1-SoC has.
     pub const fn new() -> Self {
-        Self { speed_limit: SpeedLimit::High, external_vbus: true }
+        Self { speed_limit: SpeedLimit::High, external_vbus: true, halt_limit_us: Some(50_000) }
     }
 
     /// The same with another speed limit.
@@ -41,6 +45,13 @@ impl Config {
     #[must_use]
     pub const fn with_external_vbus(mut self, external: bool) -> Self {
         self.external_vbus = external;
+        self
+    }
+
+    /// The same with another limit for channels that halt by themselves.
+    #[must_use]
+    pub const fn with_halt_limit_us(mut self, limit: Option<u32>) -> Self {
+        self.halt_limit_us = limit;
         self
     }
 }
