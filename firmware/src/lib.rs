@@ -17,6 +17,7 @@
 //! | [`de1_soc`] | the DE1-SoC: its addresses and its serial console |
 //! | [`software_fpga`] | the FPGA's stand-in on a board that has none |
 //! | [`pl011`] | serial lines on a PL011 |
+//! | `usb` | keyboards and pads on a DWC2 host controller |
 //! | [`ps2`] | PS/2 scan codes to USB keyboard reports |
 //! | [`mmio`] | typed access to memory-mapped registers |
 //!
@@ -47,5 +48,7 @@ pub mod ps2;
 pub mod raspi2b;
 pub mod scene;
 pub mod software_fpga;
+#[cfg(all(target_arch = "arm", feature = "usb"))]
+pub mod usb;
 pub mod vexpress_a9;
 pub mod viewer;

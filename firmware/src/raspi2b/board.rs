@@ -6,14 +6,15 @@ use super::interrupts::{self, Sources};
 use super::mailbox::Mailbox;
 use super::memory_map::{
     AUXILIARY, CONSOLE_HERTZ, GPU_MEMORY, GPU_MEMORY_END, INTERRUPT_CONTROLLER, LINK, LINK_HERTZ, LINK_INTERRUPT,
-    MAILBOX, MAILBOX_MESSAGE, SYSTEM_TIMER, TIMER_INTERRUPT, TRANSLATION_TABLE,
+    MAILBOX, MAILBOX_MESSAGE, SYSTEM_TIMER, TIMER_INTERRUPT, TRANSLATION_TABLE, USB, USB_INTERRUPT, USB_MEMORY,
 };
 use super::mini_uart::Console;
-use super::system_timer::{Alarm, SystemTimer};
+use super::system_timer::SystemTimer;
 use crate::armv7a::exceptions::Hooks;
 use crate::armv7a::semihosting;
 use crate::cortex_a7;
 use crate::pl011::{Config, Link};
+use crate::usb::{Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
 use core::cell::Cell;
 use core::fmt::Write;
 use critical_section::Mutex;
@@ -37,8 +38,12 @@ pub struct Board {
     pub display: Framebuffer,
     /// Time since power on, and delays.
     pub clock: SystemTimer,
-    /// Wakes the core; not set.
-    pub alarm: Alarm,
+}
+
+impl Now for SystemTimer {
+    fn microseconds(self) -> u64 {
+        self.microseconds()
+    }
 }
 
 impl Board {
@@ -67,6 +72,7 @@ impl Board {
     /// Called once, with the MMU on.
     unsafe fn drivers() -> Result<Self, FramebufferError> {
         static mut LINK_BYTES: Queue<u8, LINK_QUEUE> = Queue::new();
+        static USB_ROOM: Room<SystemTimer> = Room::new();
 
         // SAFETY: this function runs once, so nobody else refers to the queue; the addresses
         // are the board's, and each device gets one driver. The table maps the GPU's memory.
@@ -76,18 +82,20 @@ impl Board {
             let serial = Config { clock_hertz: LINK_HERTZ, baud: BAUD };
             let (link, link_interrupt) = Link::new(LINK, &serial, (*&raw mut LINK_BYTES).split());
             let clock = SystemTimer::at(SYSTEM_TIMER);
-            let alarm = clock.alarm();
             let display = Framebuffer::new(Mailbox::at(MAILBOX, MAILBOX_MESSAGE), GPU_MEMORY..GPU_MEMORY_END)?;
 
             let controller = InterruptController::at(INTERRUPT_CONTROLLER);
             controller.configure();
-            interrupts::install(Sources { controller, alarm, link: link_interrupt });
-            for interrupt in [TIMER_INTERRUPT, LINK_INTERRUPT] {
+            let core = Dwc2Core::at(USB, USB_MEMORY, clock);
+            let usb = Service::new(&USB_ROOM, core, clock).expect("the room is taken once");
+            let ticker = clock.ticker(TICK_MICROSECONDS);
+            interrupts::install(Sources { controller, ticker, link: link_interrupt, usb });
+            for interrupt in [TIMER_INTERRUPT, LINK_INTERRUPT, USB_INTERRUPT] {
                 controller.enable(interrupt);
             }
             // Not inside a critical section: every one above has ended.
             cortex_ar::interrupt::enable();
-            Ok(Self { console, link, display, clock, alarm })
+            Ok(Self { console, link, display, clock })
         }
     }
 }

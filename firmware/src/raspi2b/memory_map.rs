@@ -33,6 +33,8 @@ pub const LINK_INTERRUPT: Interrupt = Interrupt(57);
 
 /// Where messages to the GPU are written: uncached, for it reads the SDRAM itself.
 pub const MAILBOX_MESSAGE: usize = 0x0700_0000;
+/// Where the USB host controller reads and writes.
+pub const USB_MEMORY: usize = 0x0701_0000;
 /// First byte of what the GPU keeps for itself, the framebuffer among it.
 pub const GPU_MEMORY: usize = 0x3C00_0000;
 /// One more than its last.

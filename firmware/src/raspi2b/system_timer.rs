@@ -8,6 +8,9 @@ const STANDSTILL_READS: u32 = 100_000;
 /// Reads that find the upper word changed, before the last one is taken as it is.
 const READ_ATTEMPTS: u32 = 4;
 
+/// Attempts to set the comparator before its time has come.
+const ARM_ATTEMPTS: u32 = 8;
+
 /// Ticks in a second, and so microseconds are ticks.
 pub const HERTZ: u32 = 1_000_000;
 
@@ -61,10 +64,10 @@ impl SystemTimer {
         u64::from(high) << 32 | u64::from(low)
     }
 
-    /// Returns the alarm, comparator 1; it is not set.
+    /// Returns an interrupt by comparator 1, every `period_microseconds` once it is armed.
     #[must_use]
-    pub const fn alarm(self) -> Alarm {
-        Alarm { registers: self.registers }
+    pub const fn ticker(self, period_microseconds: u64) -> Ticker {
+        Ticker { timer: self, period: period_microseconds, next: 0 }
     }
 }
 
@@ -83,26 +86,35 @@ impl DelayNs for SystemTimer {
     }
 }
 
-/// An interrupt at a time. Copies name the same comparator.
-#[derive(Clone, Copy)]
-pub struct Alarm {
-    registers: Registers<Offset>,
+/// An interrupt at regular times.
+pub struct Ticker {
+    timer: SystemTimer,
+    period: u64,
+    /// When the next one comes.
+    next: u64,
 }
 
-impl Alarm {
-    /// Lets the alarm come at `microseconds` of the timer's time, less than 35 minutes from now, in
-    /// place of an earlier setting. Returns `false` when that time is over: the comparator compares
-    /// for equality, so no alarm comes then until the counter's lower half has gone round.
-    #[must_use]
-    pub fn set(self, microseconds: u64) -> bool {
-        let time = microseconds as u32;
-        self.registers.write(Offset::Compare1, time);
-        time.wrapping_sub(self.registers.read(Offset::CounterLow)).cast_signed() > 0
+impl Ticker {
+    /// Drops the interrupt that came.
+    pub fn acknowledge(&mut self) {
+        self.timer.registers.write(Offset::Status, MATCH_1);
     }
 
-    /// Drops the interrupt, when the alarm has come.
-    pub fn acknowledge(self) {
-        self.registers.write(Offset::Status, MATCH_1);
+    /// Prepares the next interrupt, unless it is already; those that were missed are left out.
+    ///
+    /// Returns whether one will come. The comparator compares for equality: set too late, as by an
+    /// emulator that was held up, it would raise nothing until the counter's lower half has gone round.
+    #[must_use]
+    pub fn arm(&mut self) -> bool {
+        (0..ARM_ATTEMPTS).any(|_| {
+            let now = self.timer.microseconds();
+            if self.next <= now {
+                let last = if now - self.next < self.period { self.next } else { now };
+                self.next = last + self.period;
+                self.timer.registers.write(Offset::Compare1, self.next as u32);
+            }
+            self.next > self.timer.microseconds()
+        })
     }
 }
 
@@ -124,20 +136,23 @@ mod tests {
     }
 
     #[test]
-    fn an_alarm_that_comes_too_late_is_told() {
-        for (now, time, comes) in [
-            (1_000, 1_001, true),
-            (1_000, 1_000, false),
-            (1_000, 999, false),
-            // The lower half wraps.
-            (u32::MAX, 1 << 32, true),
-            (5, (7 << 32) - 1, false),
+    fn ticks_keep_their_distance_and_missed_ones_are_left_out() {
+        for (now, last, next) in [
+            (1_000, 900, 1_900),
+            (1_899, 900, 1_900),
+            // Late by a period and more.
+            (3_000, 900, 4_000),
+            // Not over yet.
+            (1_000, 1_500, 1_500),
         ] {
             let mut memory = [0, now, 0, 0, 0];
-            let alarm = timer(&mut memory).alarm();
-            assert_eq!(alarm.set(time), comes, "{time} at {now}");
-            alarm.acknowledge();
-            assert_eq!((memory[0], memory[4]), (2, time as u32));
+            let mut ticker = timer(&mut memory).ticker(1_000);
+            ticker.next = last;
+            assert!(ticker.arm());
+            ticker.acknowledge();
+            assert_eq!((ticker.next, memory[0]), (next, 2), "last {last} at {now}");
+            // It is set only when it changes.
+            assert_eq!(u64::from(memory[4]), if next == last { 0 } else { next });
         }
     }
 }

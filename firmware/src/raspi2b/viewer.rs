@@ -1,17 +1,20 @@
 //! The board as the application wants it.
 
-use embedded_io::{Read, ReadReady, Write};
+use core::fmt::Write as _;
+
+use embedded_io::{Read, ReadReady, Write as _};
 
 use super::Board as Drivers;
 use super::framebuffer::Framebuffer;
+use super::interrupts::{sleep_a_tick_unless, start_ticking, stop_ticking, with_usb};
 use super::mini_uart::Console;
-use super::system_timer::{Alarm, HERTZ, SystemTimer};
+use super::system_timer::{HERTZ, SystemTimer};
 use crate::app::{Application, Memory};
-use crate::armv7a::sleep::sleep_unless;
 use crate::board::Board;
 use crate::intake::Intake;
 use crate::pl011::Link;
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
+use crate::usb::{Service, tell};
 
 /// What the FPGA's VGA output shows, nearly: 59.94 frames in a second.
 const FRAME_MICROSECONDS: u64 = 16_667;
@@ -21,7 +24,6 @@ pub struct ViewerBoard {
     console: Console,
     link: Link,
     clock: SystemTimer,
-    alarm: Alarm,
     /// When the next frame is due.
     next_frame: u64,
 }
@@ -35,8 +37,8 @@ pub fn application(
     model_memory: &'static mut ModelMemory,
     memory: &'static mut Memory,
 ) -> Result<Application<'static, ViewerBoard, ClockWait<SystemTimer>>, StartError> {
-    let Drivers { console, link, display, clock, alarm } = drivers;
-    let board = ViewerBoard { console, link, clock, alarm, next_frame: 0 };
+    let Drivers { console, link, display, clock } = drivers;
+    let board = ViewerBoard { console, link, clock, next_frame: 0 };
     software_fpga::application(board, display, clock, model_memory, memory)
 }
 
@@ -55,8 +57,20 @@ impl Board for ViewerBoard {
         &mut self.console
     }
 
-    fn poll_controllers(&mut self, _: &mut Intake) -> u32 {
-        0
+    fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
+        let mut unreadable = 0;
+        while let Some(event) = with_usb(Service::next_event).flatten() {
+            if let Some(report) = event.report() {
+                unreadable += u32::from(intake.accept(report).is_err());
+            }
+            let _ = tell(&event, &mut self.console);
+        }
+        if let Some(fault) = with_usb(Service::take_fault).flatten() {
+            let _ = writeln!(self.console, "usb: {fault}");
+        }
+        let frozen = intake.state().frozen;
+        with_usb(|usb| usb.set_frozen(frozen));
+        unreadable
     }
 
     fn read_link(&mut self, buffer: &mut [u8]) -> usize {
@@ -65,7 +79,7 @@ impl Board for ViewerBoard {
 
     fn write_link(&mut self, bytes: &[u8]) {
         if let Err(error) = self.link.write_all(bytes) {
-            let _ = core::fmt::Write::write_fmt(&mut self.console, format_args!("link: {error}\n"));
+            let _ = writeln!(self.console, "link: {error}");
         }
     }
 
@@ -74,11 +88,10 @@ impl Board for ViewerBoard {
     }
 
     fn pace(&mut self) {
-        let due = self.next_frame;
-        let (clock, alarm) = (self.clock, self.alarm);
-        // Other interrupts end a sleep, too.
-        while clock.microseconds() < due && alarm.set(due) {
-            sleep_unless(|| clock.microseconds() >= due);
+        start_ticking();
+        let (clock, due) = (self.clock, self.next_frame);
+        while clock.microseconds() < due {
+            sleep_a_tick_unless(|| clock.microseconds() >= due);
         }
         let now = clock.microseconds();
         // A frame that comes late puts the later ones off, so that they do not come in a burst.
@@ -88,6 +101,9 @@ impl Board for ViewerBoard {
     fn heartbeat(&mut self, _: u32) {}
 
     fn sleep(&mut self) {
-        sleep_unless(|| self.link.read_ready().unwrap_or(false));
+        // A PC steps the frames: no tick may come in between and be counted with them.
+        start_ticking();
+        sleep_a_tick_unless(|| self.link.read_ready().unwrap_or(false));
+        stop_ticking();
     }
 }
