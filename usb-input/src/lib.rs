@@ -29,25 +29,39 @@
 #[cfg(test)]
 extern crate std;
 
+mod bring_up;
+mod bus;
 mod clock;
 mod config;
+mod descriptor;
+mod device;
+mod dualshock3;
+mod dualshock4;
 mod event;
 mod fault;
+mod hid;
+mod hub;
 mod identity;
+mod link;
 mod memory;
 mod place;
+mod reader;
+mod reports;
+mod route;
 mod run;
+mod setup;
+mod slots;
+mod timing;
 mod usb_input;
 
 pub use clock::Clock;
 pub use config::Config;
 pub use event::Event;
 pub use fault::{Fault, Step};
+pub use hub::HUB_PORTS_MAXIMUM;
 pub use identity::{Identity, Kind, TEXT_BYTES};
 pub use memory::Memory;
 pub use place::Place;
 pub use run::run;
+pub use slots::DEVICES_MAXIMUM;
 pub use usb_input::UsbInput;
-
-/// Ports of a hub that are served, from port 1 on.
-pub const HUB_PORTS_MAXIMUM: u8 = 8;
