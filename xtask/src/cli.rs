@@ -9,7 +9,7 @@ use crate::commands;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
-    ("See it work", &["demo", "run"]),
+    ("See it work", &["demo", "run", "pad"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
     ("Check and measure", &["test", "bench"]),
     ("Keep generated files fresh", &["generate"]),
@@ -50,6 +50,11 @@ pub enum Task {
     /// With --headless the recorded session of the demo moves the scenes, from its first frame
     /// on, and again from there when it is over; every run gives the same frames.
     Run(RunArguments),
+    /// Plays a session as a DualShock 3 at a socket, for run --pad
+    ///
+    /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
+    /// is over, until Ctrl-C.
+    Pad(PadArguments),
     /// Draws an OBJ model to a PNG file
     ///
     /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
@@ -136,9 +141,23 @@ pub struct RunArguments {
     /// Number of frames to draw (with --headless)
     #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: Option<u32>,
+    /// Plugs in what a usbredir server at this Unix socket has: `cargo xtask pad SOCKET`, say
+    #[arg(long, value_name = "SOCKET", conflicts_with = "headless")]
+    pub pad: Option<PathBuf>,
     /// Folder for the frames (with --headless)
     #[arg(long, value_name = "DIR", requires = "headless")]
     pub output: Option<PathBuf>,
+}
+
+/// Flags of `pad`.
+#[derive(Debug, Args)]
+pub struct PadArguments {
+    /// Unix socket to listen at; it is made
+    #[arg(value_name = "SOCKET")]
+    pub socket: PathBuf,
+    /// Session to play instead of the demo's
+    #[arg(long, value_name = "FILE")]
+    pub session: Option<PathBuf>,
 }
 
 /// Flags of `render`.
@@ -234,6 +253,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Demo(arguments) => commands::demo::run(arguments),
         Task::Test(arguments) => commands::test::run(arguments),
         Task::Run(arguments) => commands::run::run(arguments),
+        Task::Pad(arguments) => commands::pad::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
@@ -342,6 +362,8 @@ mod tests {
             "demo",
             "demo --board vexpress-a9",
             "demo --board raspi2b",
+            "run --board raspi2b --pad s",
+            "pad s --session f",
             "test",
             "replay w -o o.png --depth d",
             "decode w",

@@ -4,15 +4,15 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use anyhow::{Context, ensure};
+use anyhow::{Context, bail, ensure};
 
 use crate::boot::{Bootable, check_runs, start_with_log};
-use crate::cli::RunArguments;
+use crate::cli::{Board, RunArguments};
 use crate::machine::Link;
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
-use crate::qemu::QemuOptions;
+use crate::qemu::{QemuOptions, UsbDevice};
 use crate::session::{self, ScenePart};
 use crate::setup::ensure_qemu_window;
 
@@ -73,6 +73,21 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
     taken
 }
 
+/// Returns what is plugged into the board: a keyboard, and a pad behind a hub with it.
+fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
+    match (arguments.board, &arguments.pad) {
+        (Board::Raspi2b, None) => Ok(vec![UsbDevice::keyboard("1")]),
+        (Board::Raspi2b, Some(socket)) => {
+            if !socket.exists() {
+                println!("nobody is at {} yet: start `cargo xtask pad {0}`", socket.display());
+            }
+            Ok(vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1"), UsbDevice::served(socket, "1.2")])
+        }
+        (_, None) => Ok(Vec::new()),
+        (board, Some(_)) => bail!("{board} has no USB: use `--board {}` with --pad", Board::Raspi2b),
+    }
+}
+
 fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let progress = Progress::new();
     let (qemu, display) = ensure_qemu_window(&progress)?;
@@ -81,6 +96,7 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let mut options = QemuOptions::new(qemu, bootable.board, &bootable.elf);
     options.display = display;
+    options.usb = plugged_in(arguments)?;
     options.console_file = Some(folder.join("console.txt"));
     options.console_on_stdout = true;
     let (mut qemu, log) = start_with_log(&options, &folder)?;
