@@ -125,9 +125,13 @@ pub struct DemoArguments {
     pub board: Board,
 }
 
-/// Flags of `test`: none.
+/// Flags of `test`.
 #[derive(Debug, Args)]
-pub struct TestArguments {}
+pub struct TestArguments {
+    /// Runs only the steps with TEXT in their name (`usb`, say), and the builds that they need
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+}
 
 /// Flags of `run`.
 #[derive(Debug, Args)]
@@ -365,6 +369,7 @@ mod tests {
             "run --board raspi2b --pad s",
             "pad s --session f",
             "test",
+            "test --only usb",
             "replay w -o o.png --depth d",
             "decode w",
             "bench --json",
