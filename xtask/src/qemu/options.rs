@@ -47,6 +47,9 @@ pub struct QemuOptions {
     /// Makes an instruction take 2^shift ns of the machine's time, and so every run the same;
     /// without it the machine's time is the wall clock's.
     pub icount_shift: Option<u8>,
+    /// With `icount_shift`: what the machine sleeps passes at once, so that its time has nothing to do
+    /// with the wall clock.
+    pub skips_sleep: bool,
     /// Lets the firmware end QEMU with a status, and print, by semihosting.
     pub semihosting: bool,
     /// File that gets the console's lines as well.
@@ -65,6 +68,7 @@ impl QemuOptions {
             usb: Vec::new(),
             display: Display::None,
             icount_shift: None,
+            skips_sleep: false,
             semihosting: true,
             console_file: None,
             console_on_stdout: false,
@@ -101,7 +105,7 @@ impl QemuOptions {
         }
         if let Some(shift) = self.icount_shift {
             push("-icount");
-            push(&format!("shift={shift}"));
+            push(&format!("shift={shift}{}", if self.skips_sleep { ",sleep=off" } else { "" }));
         }
         if self.semihosting {
             push("-semihosting-config");

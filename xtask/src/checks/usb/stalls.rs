@@ -95,6 +95,7 @@ fn measured(
     let name = what.replace(' ', "-");
     let mut rig = Rig::start_with(state, &format!("usb-rate-{name}"), |options| {
         options.icount_shift = Some(ICOUNT_SHIFT);
+        options.skips_sleep = true;
     })?;
     rig.begin(Scene::Plate)?;
     rig.run_freely()?;
