@@ -97,3 +97,29 @@ pub trait Device {
         None
     }
 }
+
+impl<D: Device + ?Sized> Device for Box<D> {
+    fn speed(&self, fastest: Speed) -> Speed {
+        (**self).speed(fastest)
+    }
+
+    fn reset(&mut self, now: u64, speed: Speed) {
+        (**self).reset(now, speed);
+    }
+
+    fn setup(&mut self, now: u64, target: Target, packet: [u8; 8]) -> Handshake {
+        (**self).setup(now, target, packet)
+    }
+
+    fn data_in(&mut self, now: u64, target: Target) -> Answer {
+        (**self).data_in(now, target)
+    }
+
+    fn acknowledged(&mut self, now: u64, target: Target) {
+        (**self).acknowledged(now, target);
+    }
+
+    fn data_out(&mut self, now: u64, target: Target, toggle: Toggle, bytes: &[u8]) -> Handshake {
+        (**self).data_out(now, target, toggle, bytes)
+    }
+}
