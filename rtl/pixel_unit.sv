@@ -1,7 +1,7 @@
 // One pixel of every tile: its depth memory, its part of both colour buffers, and the depth test.
 //
 // Takes a pixel a clock and is never held back. Stages, counted on from the evaluator's two:
-//   3  entered with the depth saturated to 16 bits and the old depth read; compares them
+//   3  entered with depth and colour saturated and the old depth read; compares, dithers
 //   4  writes depth and colour
 // A pixel that enters one or two clocks behind another of the same place has read the memory
 // before that one's write; it compares with the write itself instead (forwarding).
@@ -10,13 +10,10 @@
 // The colour memory is read on VGA's clock: latency 1 from index and buffer to colour.
 `default_nettype none
 
-module pixel_unit
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module pixel_unit #(
     parameter int unsigned PixelUnits = 8,
-    localparam int unsigned Pixels = Width * Height / PixelUnits,
-    localparam int unsigned IndexWidth = $clog2(Pixels)
+    // Follows from the others; never given.
+    parameter int unsigned IndexWidth = $clog2(halfspace_pkg::Width * halfspace_pkg::Height / PixelUnits)
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
@@ -25,8 +22,11 @@ module pixel_unit
     input  logic                  covered_i,
     input  logic                  depth_test_i,
     input  logic [IndexWidth-1:0] index_i,
-    input  value_t                depth_i,
-    input  logic [7:0]            colour_i,
+    input  raster_pkg::value_t    depth_i,
+    input  raster_pkg::wholes_t   plane_i,        // the colour, if `shaded_i`
+    input  logic [3:0]            threshold_i,    // and its dither
+    input  logic                  shaded_i,
+    input  logic [7:0]            colour_i,       // else
     input  logic                  back_buffer_i,  // may change only while idle_o is 1
 
     output logic                  tested_o,
@@ -39,9 +39,17 @@ module pixel_unit
     output logic [7:0]            vga_colour_o
 );
 
+  import halfspace_pkg::*;
+  import raster_pkg::*;
+
+  localparam int unsigned Pixels = Width * Height / PixelUnits;
+
   logic covered3_q, test3_q;
   logic [IndexWidth-1:0] index3_q;
   logic [15:0] depth3_q, depth3_d;
+  logic [7:0] red3_q, green3_q, blue3_q;  // scaled: 224, 224 and 192 are full
+  logic [3:0] threshold3_q;
+  logic shaded3_q;
   logic [7:0] colour3_q;
   logic [15:0] depth_read;
 
@@ -51,7 +59,7 @@ module pixel_unit
   logic write4_q, tested4_q, counted4_q;
   logic [IndexWidth-1:0] index4_q;
   logic [15:0] depth4_q;
-  logic [7:0] colour4_q;
+  logic [7:0] colour4_q, colour4_d;
 
   logic write5_q;
   logic [IndexWidth-1:0] index5_q;
@@ -63,6 +71,21 @@ module pixel_unit
     else if (depth_i[30:28] != '0) depth3_d = '1;
     else depth3_d = depth_i[27:12];
   end
+
+  // 0...255 as they are, 256...383 as 255, 384...511 as 0.
+  function automatic logic [7:0] saturated(whole_t whole);
+    if (!whole[8]) return whole[7:0];
+    return whole[7] ? 8'd0 : 8'd255;
+  endfunction
+
+  // The sums are at most 255.
+  function automatic logic [7:0] dithered(logic [7:0] red, logic [7:0] green, logic [7:0] blue,
+                                          logic [3:0] threshold);
+    return {3'((red + {3'b0, threshold, 1'b1}) >> 5), 3'((green + {3'b0, threshold, 1'b1}) >> 5),
+            2'((blue + {2'b0, threshold, 2'b10}) >> 6)};
+  endfunction
+
+  assign colour4_d = shaded3_q ? dithered(red3_q, green3_q, blue3_q, threshold3_q) : colour3_q;
 
   always_comb begin
     if (write4_q && index4_q == index3_q) nearest = depth4_q;
@@ -93,11 +116,16 @@ module pixel_unit
     test3_q   <= depth_test_i;
     index3_q  <= index_i;
     depth3_q  <= depth3_d;
+    red3_q    <= saturated(plane_i.red) - (saturated(plane_i.red) >> 3);
+    green3_q  <= saturated(plane_i.green) - (saturated(plane_i.green) >> 3);
+    blue3_q   <= saturated(plane_i.blue) - (saturated(plane_i.blue) >> 2);
+    threshold3_q <= threshold_i;
+    shaded3_q <= shaded_i;
     colour3_q <= colour_i;
 
     index4_q  <= index3_q;
     depth4_q  <= depth3_q;
-    colour4_q <= colour3_q;
+    colour4_q <= colour4_d;
 
     index5_q <= index4_q;
     depth5_q <= depth4_q;

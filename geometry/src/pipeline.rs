@@ -8,7 +8,7 @@ use fpga_regs::packet::{FlatTriangle, Header, Kind};
 use crate::clip::{MAX_CORNERS, clip};
 use crate::light::FaceLight;
 use crate::mesh::{Face, Mesh, Position, Winding};
-use crate::setup::{ScreenVertex, doubled_area, set_up_words};
+use crate::setup::{ScreenVertex, doubled_area, last_words, set_up_shape};
 use crate::transform::ScreenTransform;
 
 /// Which faces are drawn.
@@ -191,7 +191,7 @@ impl<S: Sink> Pass<'_, S> {
     #[inline(never)]
     fn front_face(&mut self, a: &ScreenVertex, b: &ScreenVertex, c: &ScreenVertex, face: &Face) -> ControlFlow<()> {
         let Some(words) = self.sink.room() else { return ControlFlow::Break(()) };
-        if set_up_words([a, b, c], words) {
+        if set_up_shape([a, b, c], last_words(words)).is_some() {
             let intensity = self.light.intensity(face.normal);
             words[0] = Header::of(Kind::FlatTriangle).0 | u32::from(intensity.framebuffer_colour(face.colour).0);
             self.drawn += 1;

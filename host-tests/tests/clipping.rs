@@ -4,7 +4,7 @@
 //! The reference tells for a pixel whether it sees the triangle ([`host_tests::visible_part`]).
 //! [`MARGIN`] pixels from its sides the picture must agree: what a vertex may be off by, in x and y.
 
-use fpga_regs::packet::{Clear, FlatTriangle};
+use fpga_regs::packet::{Clear, FlatTriangle, TriangleShape};
 use fpga_regs::registers::Register;
 use fpga_regs::screen::{DEPTH_FAR, GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
 use geometry::clip::clip;
@@ -103,7 +103,8 @@ fn draw(device: &mut Device<'_>, drawn: &[Drawn]) -> u32 {
     let before = count(device);
     for it in drawn {
         let zero = PacketDepth::ZERO;
-        let flat = FlatTriangle { depth: zero, depth_step_x: zero, depth_step_y: zero, ..it.triangle };
+        let shape = TriangleShape { depth: zero, depth_step_x: zero, depth_step_y: zero, ..it.triangle.shape };
+        let flat = FlatTriangle { shape, ..it.triangle };
         device.push(&flat.encode());
     }
     let after = count(device);
@@ -239,7 +240,7 @@ fn clipping_opens_no_cracks() {
         let faces = [[0, 1, 2], rng.pick(&[[0, 2, 3], [2, 0, 3]])];
         let (drawn, _) = draw_faces(&corners, &faces, Winding::CounterClockwise, &matrix.fixed, Culling::None);
         for (x, y) in pixels {
-            let count = drawn.iter().filter(|it| packet_pixels::covers(&it.triangle, x, y)).count();
+            let count = drawn.iter().filter(|it| packet_pixels::covers(&it.triangle.shape, x, y)).count();
             assert_eq!(count, 1, "{places:?}: pixel ({x}, {y}) on the shared edge, {clip:?}: {drawn:?}");
             along += 1;
         }

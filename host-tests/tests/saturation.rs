@@ -48,7 +48,7 @@ fn assert_bounded(drawn: &[Drawn], what: &Matrix) {
             assert!((0..=65_535).contains(&corner.depth), "{corner:?} of {what:?}");
         }
         // 2²⁴: see the table in `fpga_regs::packet`.
-        assert!(it.triangle.edges.iter().all(|edge| edge.abs() <= 1 << 24), "{it:?} of {what:?}");
+        assert!(it.triangle.shape.edges.iter().all(|edge| edge.abs() <= 1 << 24), "{it:?} of {what:?}");
     }
 }
 

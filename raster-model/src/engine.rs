@@ -1,11 +1,12 @@
 //! What each packet does.
 
 use fpga_regs::Counters;
-use fpga_regs::packet::{Clear, Packet};
+use fpga_regs::packet::{Clear, Packet, TriangleShape};
 use fpga_regs::registers::{Errors, Interrupts};
 
 use crate::decoder::Decoder;
 use crate::memory::Memory;
+use crate::paint::{Paint, Planes};
 use crate::triangle;
 
 /// The device behind its FIFO: takes words, draws, counts and raises flags.
@@ -60,22 +61,17 @@ impl<'a> Engine<'a> {
     }
 
     fn execute(&mut self, packet: &Packet) {
-        let counters = &mut self.counters;
         match packet {
             Packet::Clear(Clear { colour, depth }) => {
                 let (colours, depths) = self.memory.target();
                 colours.fill(colour.0);
                 depths.fill(*depth);
             }
-            Packet::FlatTriangle(triangle) => {
-                let (colours, depths) = self.memory.target();
-                let pixels = triangle::draw(triangle, colours, depths);
-                counters.triangles = counters.triangles.wrapping_add(1);
-                counters.pixels_tested = counters.pixels_tested.wrapping_add(pixels.tested);
-                counters.pixels_written = counters.pixels_written.wrapping_add(pixels.written);
-            }
+            Packet::FlatTriangle(triangle) => self.draw(&triangle.shape, triangle.colour),
+            Packet::GouraudTriangle(triangle) => self.draw(&triangle.shape, Planes::from(triangle)),
             Packet::Swap => {
                 self.memory.swap();
+                let counters = &mut self.counters;
                 counters.frames_shown = counters.frames_shown.wrapping_add(1);
                 self.interrupts = self.interrupts.with_swap(true);
             }
@@ -84,5 +80,14 @@ impl<'a> Engine<'a> {
                 self.interrupts = self.interrupts.with_fence(true);
             }
         }
+    }
+
+    fn draw(&mut self, shape: &TriangleShape, paint: impl Paint) {
+        let (colours, depths) = self.memory.target();
+        let pixels = triangle::draw(shape, paint, colours, depths);
+        let counters = &mut self.counters;
+        counters.triangles = counters.triangles.wrapping_add(1);
+        counters.pixels_tested = counters.pixels_tested.wrapping_add(pixels.tested);
+        counters.pixels_written = counters.pixels_written.wrapping_add(pixels.written);
     }
 }

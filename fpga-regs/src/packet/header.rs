@@ -1,6 +1,6 @@
 //! The word that every packet starts with, the kinds, and the table of their words.
 
-use super::{Clear, ClearDepth, Fence, FlatTriangle};
+use super::{Clear, ClearDepth, Fence, FlatTriangle, GouraudTriangle};
 use crate::layout::Field;
 
 /// What a packet asks for; the number that stands in its header.
@@ -13,6 +13,8 @@ pub enum Kind {
     Clear = 0x01,
     /// Draws a flat triangle into the back buffer: [`FlatTriangle`].
     FlatTriangle = 0x02,
+    /// Draws a triangle whose colour changes from corner to corner: [`GouraudTriangle`].
+    GouraudTriangle = 0x03,
     /// Shows the back buffer from the next vertical blank on: [`swap`].
     Swap = 0x10,
     /// Writes a tag to the FENCE register when all before it is done: [`Fence`].
@@ -21,13 +23,14 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds, by rising number.
-    pub const ALL: &'static [Kind] = &[Kind::Clear, Kind::FlatTriangle, Kind::Swap, Kind::Fence];
+    pub const ALL: &'static [Kind] = &[Kind::Clear, Kind::FlatTriangle, Kind::GouraudTriangle, Kind::Swap, Kind::Fence];
 
     /// Returns the kind of a header's number, if there is such a kind.
     pub const fn from_number(number: u8) -> Option<Self> {
         match number {
             0x01 => Some(Kind::Clear),
             0x02 => Some(Kind::FlatTriangle),
+            0x03 => Some(Kind::GouraudTriangle),
             0x10 => Some(Kind::Swap),
             0x11 => Some(Kind::Fence),
             _ => None,
@@ -39,6 +42,7 @@ impl Kind {
         match self {
             Kind::Clear => Clear::WORDS - 1,
             Kind::FlatTriangle => FlatTriangle::WORDS - 1,
+            Kind::GouraudTriangle => GouraudTriangle::WORDS - 1,
             Kind::Swap => 0,
             Kind::Fence => Fence::WORDS - 1,
         }
@@ -62,9 +66,14 @@ impl Kind {
                 doc: "Draws the pixels of a box that lie inside three edges and are nearer than what is there, in the header's colour.",
                 words: FlatTriangle::WORD_TABLE,
             },
+            Kind::GouraudTriangle => PacketInfo {
+                name: "GOURAUD_TRIANGLE",
+                doc: "As FLAT_TRIANGLE, but each channel of the colour is a plane over the screen. Each pixel is dithered to RGB332.",
+                words: GouraudTriangle::WORD_TABLE,
+            },
             Kind::Swap => PacketInfo {
                 name: "SWAP",
-                doc: "Makes the back buffer the front one at the next vertical blank. What follows waits for it and goes to the other buffer.",
+                doc: "Makes the back buffer the front one at the next vertical blank. What follows waits for it and goes to the other buffer. There is at most one swap in a vertical blank.",
                 words: &[],
             },
             Kind::Fence => PacketInfo {

@@ -39,6 +39,7 @@ impl Reference {
                 && match kind {
                     0x01 => length == 1,
                     0x02 => length == 10,
+                    0x03 => length == 16 && colour == 0,
                     0x10 => length == 0 && colour == 0,
                     0x11 => length == 1 && colour == 0,
                     _ => false,
@@ -60,15 +61,9 @@ impl Reference {
                 self.colours[1 - self.front].fill(colour);
                 self.depths.fill(payload[0] as u16);
             }
-            0x02 => {
-                let (x0, x1) = (payload[0] & 0xffff, payload[0] >> 16);
-                let (y0, y1) = (payload[1] & 0xffff, payload[1] >> 16);
-                if x0 > x1 || x1 >= WIDTH || y0 > y1 || y1 >= HEIGHT {
-                    self.counters.bad_packets += 1;
-                } else {
-                    self.triangle(colour, [x0, x1, y0, y1], payload);
-                }
-            }
+            0x02 => self.triangle(payload, |_, _, _, _| colour),
+            0x03 if [1, 3, 5].iter().any(|word| payload[*word] >> 31 != 0) => self.counters.bad_packets += 1,
+            0x03 => self.triangle(&payload[6..], |x, y, right, down| gouraud_colour(payload, [x, y], right, down)),
             0x10 => {
                 self.front = 1 - self.front;
                 self.counters.frames_shown += 1;
@@ -77,7 +72,14 @@ impl Reference {
         }
     }
 
-    fn triangle(&mut self, colour: u8, [x0, x1, y0, y1]: [u32; 4], payload: &[u32]) {
+    /// `colour` is asked for the colour at a pixel, and how far it lies right of and below the box's first.
+    fn triangle(&mut self, payload: &[u32], colour: impl Fn(u32, u32, u32, u32) -> u8) {
+        let (x0, x1) = (payload[0] & 0xffff, payload[0] >> 16);
+        let (y0, y1) = (payload[1] & 0xffff, payload[1] >> 16);
+        if x0 > x1 || x1 >= WIDTH || y0 > y1 || y1 >= HEIGHT {
+            self.counters.bad_packets += 1;
+            return;
+        }
         self.counters.triangles += 1;
         let low = |word: u32| i32::from(word as i16);
         let high = |word: u32| i32::from((word >> 16) as i16);
@@ -99,7 +101,7 @@ impl Reference {
                 if depth < self.depths[pixel] {
                     self.counters.pixels_written = self.counters.pixels_written.wrapping_add(1);
                     self.depths[pixel] = depth;
-                    self.colours[1 - self.front][pixel] = colour;
+                    self.colours[1 - self.front][pixel] = colour(x, y, right, down);
                 }
             }
         }
@@ -117,4 +119,28 @@ impl Reference {
         let at = self.depths.iter().zip(device.depth()).position(|(ours, theirs)| ours != theirs);
         assert_eq!(at, None, "depth differs");
     }
+}
+
+/// The colour of a Gouraud triangle's pixel, from the six words that stand before its shape.
+fn gouraud_colour(words: &[u32], [x, y]: [u32; 2], right: u32, down: u32) -> u8 {
+    // Red, green and blue, 21 bits each, stand in two words, lowest first.
+    let channel = |index: u32, pair: usize| {
+        let both = u64::from(words[2 * pair + 1]) << 32 | u64::from(words[2 * pair]);
+        both >> (21 * index) & 0x1f_ffff
+    };
+    // Ordered dithering's matrix, by its definition: the bits of y and of x ^ y, interleaved, lowest bit first.
+    let bit = |value: u32, bit: u32| value >> bit & 1;
+    let threshold = bit(x ^ y, 0) << 3 | bit(y, 0) << 2 | bit(x ^ y, 1) << 1 | bit(y, 1);
+    let eight_bits = |index: u32| {
+        let sum = channel(index, 0) + channel(index, 1) * u64::from(right) + channel(index, 2) * u64::from(down);
+        match (sum >> 12 & 0x1ff) as u32 {
+            whole @ 0..=255 => whole,
+            256..=383 => 255,
+            _ => 0,
+        }
+    };
+    let [red, green, blue] = [0, 1, 2].map(eight_bits);
+    let of_8 = |value: u32| (value - value / 8 + 2 * threshold + 1) / 32;
+    let of_4 = |value: u32| (value - value / 4 + 4 * threshold + 2) / 64;
+    (of_8(red) << 5 | of_8(green) << 2 | of_4(blue)) as u8
 }
