@@ -3,7 +3,6 @@
 //! | module | holds |
 //! | --- | --- |
 //! | [`wire`] | what goes over the wire: tokens, handshakes, and [`Device`](wire::Device), which answers them |
-<<<<<<< HEAD
 //! | [`split`] | split transactions, and [`Translator`](split::Translator), which a high-speed hub is |
 //! | [`hub`] | a hub: four ports, power, changes, reset, a transaction translator |
 //! | [`faulty`] | a device that misbehaves at a chosen moment |
@@ -11,16 +10,6 @@
 //! | [`dwc2`] | the DWC2 core, strict: registers in, transactions out |
 //! | [`memory`] | memory between caches and DMA, strict |
 //! | [`violation`] | the rules, and the record of those that were broken |
-#![forbid(unsafe_code)]
-
-pub mod dwc2;
-pub mod faulty;
-pub mod hub;
-pub mod memory;
-pub mod shared;
-pub mod split;
-pub mod violation;
-=======
 //! | [`leaf`] | a device with one configuration: endpoint 0, toggles, the waits that a host owes it |
 //! | [`keyboard`] | keyboards: boot, a bit for each key, a list of keys |
 //! | [`dualshock3`], [`dualshock4`], [`gamepad`] | pads |
@@ -34,14 +23,20 @@ pub mod violation;
 
 pub mod dualshock3;
 pub mod dualshock4;
+pub mod dwc2;
+pub mod faulty;
 pub mod gamepad;
+pub mod hub;
 pub mod ideal_host;
 pub mod keyboard;
 pub mod leaf;
+pub mod memory;
 pub mod mutate;
 pub mod random;
 pub mod rogue;
+pub mod shared;
 pub mod simple_hub;
+pub mod split;
 pub mod storage;
->>>>>>> ca616f7edef8175554643b551256699bb0afbf7b
+pub mod violation;
 pub mod wire;
