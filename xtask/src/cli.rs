@@ -1,11 +1,17 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
+mod values;
+
 use std::fmt::{self, Write as _};
 use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use crate::commands;
+use crate::qemu::UsbIds;
+use values::{parse_rotation, parse_usb_ids};
+
+pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
@@ -148,6 +154,10 @@ pub struct RunArguments {
     /// Plugs in what a usbredir server at this Unix socket has: `cargo xtask pad SOCKET`, say
     #[arg(long, value_name = "SOCKET", conflicts_with = "headless")]
     pub pad: Option<PathBuf>,
+    /// Hands a USB device of this computer to the board, by its ids as lsusb shows them; see the
+    /// README on permissions
+    #[arg(long, value_name = "VENDOR:PRODUCT", conflicts_with = "headless", value_parser = parse_usb_ids)]
+    pub usb_host: Option<UsbIds>,
     /// Folder for the frames (with --headless)
     #[arg(long, value_name = "DIR", requires = "headless")]
     pub output: Option<PathBuf>,
@@ -192,13 +202,6 @@ pub struct RenderArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
-}
-
-/// Angles about the x, y and z axis, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rotation {
-    /// Degrees about the x, y and z axis, each finite.
-    pub degrees: [f64; 3],
 }
 
 /// Flags of `replay`.
@@ -288,23 +291,6 @@ fn grouped_commands(command: &Command) -> String {
     text
 }
 
-/// Reads `X,Y,Z` as three finite angles in degrees.
-fn parse_rotation(text: &str) -> Result<Rotation, String> {
-    let remedy = "give three numbers of degrees with commas between, like 20,-30,0";
-    let parts: Vec<&str> = text.split(',').collect();
-    let [x, y, z] = parts.as_slice() else {
-        return Err(format!("{} numbers instead of 3: {remedy}", parts.len()));
-    };
-    let mut degrees = [0.0; 3];
-    for (angle, part) in degrees.iter_mut().zip([x, y, z]) {
-        *angle = match part.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => number,
-            _ => return Err(format!("`{part}` is no angle: {remedy}")),
-        };
-    }
-    Ok(Rotation { degrees })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -344,14 +330,6 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_rotation_names_the_remedy() {
-        for wrong in ["1,2", "1,2,x", "1,2,inf", "", "1,2,3,4"] {
-            let message = parse_rotation(wrong).expect_err(wrong);
-            assert!(message.contains("like 20,-30,0"), "{message}");
-        }
-    }
-
-    #[test]
     fn headless_wants_frames_and_a_folder() {
         assert!(parse("run").is_ok());
         assert!(parse("run --headless --frames 3 --output d").is_ok());
@@ -367,6 +345,7 @@ mod tests {
             "demo --board vexpress-a9",
             "demo --board raspi2b",
             "run --board raspi2b --pad s",
+            "run --board raspi2b --usb-host 054c:0268",
             "pad s --session f",
             "test",
             "test --only usb",

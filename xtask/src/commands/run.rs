@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 
 use crate::boot::{Bootable, check_runs, start_with_log};
 use crate::cli::{Board, RunArguments};
@@ -73,19 +73,26 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
     taken
 }
 
-/// Returns what is plugged into the board: a keyboard, and a pad behind a hub with it.
+/// Returns what is plugged into the board: a keyboard, and behind a hub with it what the flags name.
 fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
-    match (arguments.board, &arguments.pad) {
-        (Board::Raspi2b, None) => Ok(vec![UsbDevice::keyboard("1")]),
-        (Board::Raspi2b, Some(socket)) => {
-            if !socket.exists() {
-                println!("nobody is at {} yet: start `cargo xtask pad {0}`", socket.display());
-            }
-            Ok(vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1"), UsbDevice::served(socket, "1.2")])
-        }
-        (_, None) => Ok(Vec::new()),
-        (board, Some(_)) => bail!("{board} has no USB: use `--board {}` with --pad", Board::Raspi2b),
+    let named = arguments.pad.is_some() || arguments.usb_host.is_some();
+    if arguments.board != Board::Raspi2b {
+        let board = arguments.board;
+        ensure!(!named, "{board} has no USB: use `--board {}` with --pad and --usb-host", Board::Raspi2b);
+        return Ok(Vec::new());
     }
+    if !named {
+        return Ok(vec![UsbDevice::keyboard("1")]);
+    }
+    let mut devices = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1")];
+    if let Some(socket) = &arguments.pad {
+        if !socket.exists() {
+            println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display());
+        }
+        devices.push(UsbDevice::served(socket, "1.2"));
+    }
+    devices.extend(arguments.usb_host.map(|ids| UsbDevice::of_this_computer(ids, "1.3")));
+    Ok(devices)
 }
 
 fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
@@ -112,7 +119,27 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::{Cli, Task};
+    use clap::Parser;
     use firmware::scene::Scene;
+
+    /// Returns what is plugged in, and the message when that is refused.
+    fn plugged(line: &str) -> Result<usize, String> {
+        let words = ["xtask", "run"].into_iter().chain(line.split_whitespace());
+        let Task::Run(arguments) = Cli::try_parse_from(words).expect("a valid line").command else {
+            panic!("run is run");
+        };
+        plugged_in(&arguments).map(|devices| devices.len()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_board_without_usb_takes_no_device() {
+        assert_eq!(plugged(""), Ok(0));
+        assert_eq!(plugged("--board raspi2b"), Ok(1));
+        assert_eq!(plugged("--board raspi2b --pad /no/socket --usb-host 054c:0268"), Ok(4));
+        let message = plugged("--usb-host 054c:0268").expect_err("vexpress-a9 has none");
+        assert!(message.starts_with("vexpress-a9 has no USB: use `--board raspi2b`"), "{message}");
+    }
 
     #[test]
     fn a_session_is_repeated_and_cut() {

@@ -153,6 +153,7 @@ pub(super) fn comma_doubled(path: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::UsbIds;
     use super::*;
 
     #[test]
@@ -176,6 +177,8 @@ mod tests {
         let line = |board| {
             let mut options = QemuOptions::new("qemu", board, "x.elf");
             options.usb = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1"), UsbDevice::served("/t/pad", "1.2")];
+            let ids = UsbIds { vendor: 0x054C, product: 0x0268 };
+            options.usb.push(UsbDevice::of_this_computer(ids, "1.3"));
             let words = options.arguments(Path::new("/t"));
             words.iter().map(|word| word.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
         };
@@ -193,5 +196,6 @@ mod tests {
         let served = "-chardev socket,id=server-usb1.2,path=/t/pad,reconnect=1 \
                       -device usb-redir,id=usb1.2,port=1.2,chardev=server-usb1.2 ";
         assert!(raspi.contains(served), "{raspi}");
+        assert!(raspi.contains("-device usb-host,id=usb1.3,port=1.3,vendorid=0x054c,productid=0x0268 "), "{raspi}");
     }
 }
