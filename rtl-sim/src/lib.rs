@@ -5,12 +5,16 @@
 //! | [`rtl`] | [`Rtl`]: bus writes and reads, clocks, and a look into the memories |
 //! | [`vga`] | [`Frame`]: a picture taken from the VGA pins, with its timing checked |
 //! | [`memories`] | [`Memories`]: the buffers as they stand |
+//! | [`stimulus`] | words to give it: triangles from vertices, garbage |
+//! | [`bench`] | how many clocks work takes |
 //!
 //! `build.rs` verilates the design for 1, 2, 4 and 8 pixel units, assertions on.
 
+pub mod bench;
 mod calls;
 pub mod memories;
 pub mod rtl;
+pub mod stimulus;
 pub mod vga;
 
 pub use memories::Memories;
