@@ -6,6 +6,7 @@ use fpga_regs::Port;
 use fpga_regs::packet::{Clear, FlatTriangle};
 use fpga_regs::registers::{Control, Register};
 use fpga_regs::screen::{DEPTH_FAR, HEIGHT, PIXELS, Rgb332, WIDTH};
+use serde::Serialize;
 
 use crate::rtl::Rtl;
 use crate::stimulus::random::Random;
@@ -19,7 +20,8 @@ const TRIANGLES: usize = 2000;
 const LAYERS: i32 = 10;
 
 /// Which way a figure is better.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Better {
     /// More is better: the bar is a least value.
     Higher,
@@ -28,7 +30,7 @@ pub enum Better {
 }
 
 /// One figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figure {
     /// What was measured, like `rtl.n8.clear_clocks`.
     pub name: String,

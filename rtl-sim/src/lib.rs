@@ -6,6 +6,7 @@
 //! | [`vga`] | [`Frame`]: a picture taken from the VGA pins, with its timing checked |
 //! | [`memories`] | [`Memories`]: the buffers as they stand |
 //! | [`stimulus`] | words to give it: triangles from vertices, garbage |
+//! | [`replay`] | a stream's frames, and what each costs |
 //! | [`bench`] | how many clocks work takes |
 //!
 //! `build.rs` verilates the design for 1, 2, 4 and 8 pixel units, assertions on.
@@ -13,6 +14,7 @@
 pub mod bench;
 mod calls;
 pub mod memories;
+pub mod replay;
 pub mod rtl;
 pub mod stimulus;
 pub mod vga;
