@@ -86,8 +86,11 @@ pub fn measure(units: u32) -> Vec<Figure> {
     let full_screen = full_screen_pixels_per_clock(&mut rtl);
     let [clocks_50, tiles_50] = per_triangle(&mut rtl, 50);
     let [clocks_10, tiles_10] = per_triangle(&mut rtl, 10);
-    let figure =
-        |name, value, unit, better, bar| Figure { name: format!("rtl.n{units}.{name}"), value, unit, bar, better };
+    let figure = |name, value: f64, unit, better, bar| {
+        // Thousandths tell enough.
+        let value = (value * 1000.0).round() / 1000.0;
+        Figure { name: format!("rtl.n{units}.{name}"), value, unit, bar, better }
+    };
     let lower = |name, value, unit, bar| figure(name, value, unit, Better::Lower, bar);
     vec![
         figure(

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use crate::commands;
+use crate::verilated::UNITS;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
@@ -23,7 +24,7 @@ Examples:
   cargo xtask demo --help                           all flags of one command
 
 Results go to target/<command>/ unless -o or --output names another place.
-What is missing (Rust target, QEMU) is installed where that needs no question;
+What is missing (Rust target, QEMU, Verilator) is installed where that needs no question;
 otherwise the command to type is printed.";
 
 /// Runs every task of the Halfspace project.
@@ -61,6 +62,9 @@ pub enum Task {
     ///
     /// Shows the front buffer or, if the stream has no swap, the back buffer. Bad packets are
     /// skipped with a warning. A stream that ends inside a packet is an error: nothing is written.
+    /// With --rtl the FPGA's SystemVerilog draws, clock by clock, in Verilator: what comes out is
+    /// compared with the software model, and what each frame cost is shown. A word goes in each
+    /// clock; waiting for the vertical blank is cut short and not counted.
     Replay(ReplayArguments),
     /// Prints a file of packet words as text
     ///
@@ -69,8 +73,8 @@ pub enum Task {
     Decode(DecodeArguments),
     /// Measures the cost per vertex, triangle and pixel
     ///
-    /// Counts the Cortex-A9's instructions in QEMU, and times geometry and software model on this
-    /// computer, as an optimised build: median of several runs.
+    /// Counts the Cortex-A9's instructions in QEMU and the FPGA's clocks in Verilator, and times
+    /// geometry and software model on this computer, as an optimised build: median of several runs.
     Bench(BenchArguments),
     /// Writes the files that are generated and committed
     Generate(GenerateArguments),
@@ -115,6 +119,9 @@ pub struct DemoArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Writes the packet words of all frames as well, for replay and decode
+    #[arg(long, value_name = "FILE")]
+    pub dump: Option<PathBuf>,
 }
 
 /// Flags of `test`: none.
@@ -187,6 +194,24 @@ pub struct ReplayArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
+    /// Draws with the FPGA's design in Verilator instead of the software model
+    #[arg(long)]
+    pub rtl: bool,
+    /// Pixel units that the design is built with
+    #[arg(long, value_name = "N", requires = "rtl", default_value_t = 8, value_parser = parse_units)]
+    pub units: u32,
+    /// Takes the picture, 640×480, from the VGA pins
+    #[arg(long, requires = "rtl")]
+    pub pins: bool,
+    /// Records every signal of a few clocks in an FST file, for GTKWave or Surfer
+    #[arg(long, value_name = "FILE", requires = "rtl")]
+    pub wave: Option<PathBuf>,
+    /// First clock of --wave: 20 ns each, counted as in the table
+    #[arg(long, value_name = "CLOCK", requires = "wave", default_value_t = 0)]
+    pub from: u64,
+    /// Number of clocks of --wave, each about 300 bytes in the file
+    #[arg(long, value_name = "N", requires = "wave", default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub clocks: u64,
 }
 
 /// Flags of `decode`.
@@ -259,6 +284,14 @@ fn grouped_commands(command: &Command) -> String {
         text.push('\n');
     }
     text
+}
+
+/// Reads a number of pixel units.
+fn parse_units(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(units) if UNITS.contains(&units) => Ok(units),
+        _ => Err("the design is built with 1, 2, 4 or 8 pixel units".to_string()),
+    }
 }
 
 /// Reads `X,Y,Z` as three finite angles in degrees.
@@ -334,10 +367,28 @@ mod tests {
     }
 
     #[test]
+    fn a_wave_wants_the_design_and_a_number_of_units_one_that_there_is() {
+        let Task::Replay(arguments) = parse("replay w -o o.png --rtl --wave f --from 7").expect("valid").command else {
+            panic!("replay is replay");
+        };
+        assert_eq!((arguments.units, arguments.from, arguments.clocks), (8, 7, 20_000));
+        assert!(parse("replay w -o o.png").is_ok());
+        assert!(parse("replay w -o o.png --rtl --units 4 --pins --wave f --clocks 9").is_ok());
+        for wrong in
+            ["--wave f", "--units 8", "--pins", "--rtl --from 1", "--rtl --clocks 5", "--rtl --wave f --clocks 0"]
+        {
+            assert!(parse(&format!("replay w -o o.png {wrong}")).is_err(), "{wrong}");
+        }
+        let message = parse("replay w -o o.png --rtl --units 3").expect_err("no such build").to_string();
+        assert!(message.contains("1, 2, 4 or 8 pixel units"), "{message}");
+    }
+
+    #[test]
     fn the_other_commands_parse() {
         for line in [
             "demo",
             "demo --board vexpress-a9",
+            "demo --dump w",
             "test",
             "replay w -o o.png --depth d",
             "decode w",
