@@ -28,12 +28,12 @@ fn main() {
     });
 
     let runtime = verilator_root().join("include");
-    let mut files = vec!["verilated.cpp", "verilated_threads.cpp"];
+    let mut files = vec![runtime.join("verilated.cpp"), runtime.join("verilated_threads.cpp")];
     if waves {
-        files.push("verilated_fst_c.cpp");
+        files.extend([runtime.join("verilated_fst_c.cpp"), here.join("src/wave_reader.cpp")]);
     }
     // The longest first.
-    let mut jobs: Vec<Job> = files.iter().map(|file| Job::of(runtime.join(file), 1, &out)).collect();
+    let mut jobs: Vec<Job> = files.into_iter().map(|file| Job::of(file, 1, &out)).collect();
     for units in UNITS.into_iter().rev() {
         jobs.extend(units_of(units, &here.join("src/shim.cpp"), &out.join(prefix(units))));
     }
@@ -65,9 +65,11 @@ impl Design {
         sources.push(here.join("verilog/halfspace_sim.sv"));
         sources.push(here.join("verilog/public.vlt"));
         let design = Self { waivers: rtl.join("lint/waivers.vlt"), sources };
-        let others = [&list, &here.join("src/shim.cpp"), &design.waivers, &here.join("build.rs")];
-        for path in design.sources.iter().chain(others) {
+        for path in design.sources.iter().chain([&list, &design.waivers]) {
             println!("cargo::rerun-if-changed={}", path.display());
+        }
+        for name in ["build.rs", "src/shim.cpp", "src/wave_reader.cpp"] {
+            println!("cargo::rerun-if-changed={name}");
         }
         design
     }
