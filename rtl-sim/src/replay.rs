@@ -37,7 +37,7 @@ pub struct FrameCost {
 /// Draws a stream and hands the cost of each frame to `each`, as it comes to rest.
 ///
 /// The device is enabled first. Words go in one a clock, as long as the FIFO takes them. The device
-/// comes to rest after every swap, before the next frame's words go in.
+/// comes to rest after every frame, before the next frame's words go in.
 ///
 /// # Panics
 /// When the device does not come to rest, or loses a word: mistakes of the design.
@@ -50,7 +50,7 @@ pub fn replay(rtl: &mut Rtl, words: &[u32], mut each: impl FnMut(FrameCost)) {
     assert!(!lost, "the device lost a word at {} units", rtl.units());
 }
 
-fn draw(rtl: &mut Rtl, words: &[u32]) -> FrameCost {
+fn draw(rtl: &mut Rtl, FrameWords { words, swapped }: FrameWords<'_>) -> FrameCost {
     let counters = |rtl: &mut Rtl| {
         [Register::Triangles, Register::PixelsTested, Register::PixelsWritten, Register::StalledCycles]
             .map(|register| rtl.read(register))
@@ -72,39 +72,39 @@ fn draw(rtl: &mut Rtl, words: &[u32]) -> FrameCost {
         pixels_tested,
         pixels_written,
         tiles,
-        swapped: last_is_swap(words),
+        swapped,
     }
 }
 
-/// Cuts a stream behind each swap. A bad packet is as long as its header says, as for the device.
-pub fn frames(words: &[u32]) -> impl Iterator<Item = &[u32]> {
+/// A frame's words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FrameWords<'a> {
+    /// Whole packets, unless the stream ends inside one.
+    pub words: &'a [u32],
+    /// Whether there is a swap at its end; without one it is the stream's last.
+    pub swapped: bool,
+}
+
+/// Cuts a stream behind each swap and the fences that follow it. A bad packet is as long as its
+/// header says, as for the device.
+pub fn frames(words: &[u32]) -> impl Iterator<Item = FrameWords<'_>> {
     let mut rest = words;
     std::iter::from_fn(move || {
         if rest.is_empty() {
             return None;
         }
-        let mut end = 0;
+        let (mut end, mut swapped) = (0, false);
         while let Some(header) = rest.get(end).copied().map(Header) {
-            end += 1 + usize::from(header.length());
-            if header.check() == Ok(Kind::Swap) {
+            if swapped && header.check() != Ok(Kind::Fence) {
                 break;
             }
+            swapped |= header.check() == Ok(Kind::Swap);
+            end += 1 + usize::from(header.length());
         }
-        let (frame, behind) = rest.split_at(end.min(rest.len()));
+        let (words, behind) = rest.split_at(end.min(rest.len()));
         rest = behind;
-        Some(frame)
+        Some(FrameWords { words, swapped })
     })
-}
-
-/// Says whether one of [`frames`] ends with a swap: only its last packet can be one.
-fn last_is_swap(frame: &[u32]) -> bool {
-    let mut at = 0;
-    let mut last = None;
-    while let Some(header) = frame.get(at).copied().map(Header) {
-        at += 1 + usize::from(header.length());
-        last = Some(header.check());
-    }
-    last == Some(Ok(Kind::Swap))
 }
 
 #[cfg(test)]
@@ -114,17 +114,17 @@ mod tests {
     use fpga_regs::screen::Rgb332;
 
     #[test]
-    fn frames_end_behind_swaps_and_nowhere_else() {
+    fn frames_end_behind_swaps_and_their_fences_and_nowhere_else() {
         let clear = Clear { colour: Rgb332(1), depth: 2 }.encode();
         // A fence's tag, and a bad packet's words, that look like swaps.
         let fence = Fence { tag: swap()[0] }.encode();
         let bad = [0x7f02_0000, swap()[0], swap()[0]];
-        let words = [&clear[..], &swap(), &fence, &bad, &swap(), &clear].concat();
-        let found: Vec<_> = frames(&words).map(|frame| (frame.len(), last_is_swap(frame))).collect();
-        assert_eq!(found, [(3, true), (6, true), (2, false)]);
-        assert_eq!(frames(&words).flatten().copied().collect::<Vec<_>>(), words);
+        let words = [&fence[..], &clear, &swap(), &fence, &fence, &bad, &swap(), &swap(), &clear].concat();
+        let found: Vec<_> = frames(&words).map(|frame| (frame.words.len(), frame.swapped)).collect();
+        assert_eq!(found, [(9, true), (4, true), (1, true), (2, false)]);
+        assert_eq!(frames(&words).flat_map(|frame| frame.words).copied().collect::<Vec<_>>(), words);
         assert_eq!(frames(&[]).count(), 0);
         // Cut inside a packet: all that is there.
-        assert_eq!(frames(&words[..1]).collect::<Vec<_>>(), [&words[..1]]);
+        assert_eq!(frames(&words[..1]).collect::<Vec<_>>(), [FrameWords { words: &words[..1], swapped: false }]);
     }
 }

@@ -8,6 +8,7 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use anyhow::{Context, bail, ensure};
 use fpga_regs::screen::{HEIGHT, PIXELS, WIDTH};
@@ -15,6 +16,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::cargo_build;
+use crate::console::Console;
 use crate::measure::Measurement;
 use crate::paths::{TemporaryFolder, target_folder, workspace_root};
 use crate::picture::Picture;
@@ -25,6 +27,10 @@ use crate::setup::{ensure_verilator, ensure_wave_library};
 pub const CRATE: &str = "rtl-sim";
 /// The numbers of pixel units that there are builds for.
 pub const UNITS: [u32; 4] = [1, 2, 4, 8];
+/// Lines of a failed program's errors that are shown.
+const LINES_SHOWN: usize = 15;
+/// Longest time for the errors to arrive after the end.
+const PATIENCE: Duration = Duration::from_secs(5);
 /// Columns and rows of the picture on the VGA pins: each pixel doubled.
 const PINS: [u32; 2] = [2 * WIDTH, 2 * HEIGHT];
 
@@ -121,7 +127,7 @@ impl Verilated {
     /// Draws a stream; `each` gets what a frame cost as soon as it is drawn.
     ///
     /// # Errors
-    /// When the program fails, which says why on standard error, or answers what it should not.
+    /// When the program fails, with what it says, or leaves something else than pictures.
     pub fn replay(&self, job: &Job, each: impl FnMut(FrameCost)) -> anyhow::Result<Drawn> {
         /// A job, and where its results go.
         #[derive(Serialize)]
@@ -159,7 +165,7 @@ impl Verilated {
         Ok(measurements)
     }
 
-    /// Runs a program and hands over each line that it prints; its errors go to this terminal.
+    /// Runs a program and hands over each line that it prints.
     fn run<T: DeserializeOwned>(
         &self,
         program: &str,
@@ -171,20 +177,25 @@ impl Verilated {
             .args(arguments)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
             .spawn()
             .with_context(|| format!("cannot start {}", path.display()))?;
         let output = child.stdout.take().context("its output is not connected")?;
+        let errors = child.stderr.take().context("its errors are not connected")?;
+        let said = Console::start(errors, Vec::new()).context("cannot start a thread")?;
+        let mut others = String::new();
         for line in BufReader::new(output).lines() {
             let line = line.with_context(|| format!("cannot read what {program} says"))?;
-            // Verilator reports a failed assertion in this way, before it stops.
             match serde_json::from_str(&line) {
                 Ok(value) => each(value),
-                Err(_) => eprintln!("{program}: {line}"),
+                // Verilator tells of a failed assertion in this way, before it stops.
+                Err(_) => others.push_str(&format!("    {line}\n")),
             }
         }
         let status = child.wait().with_context(|| format!("cannot wait for {program}"))?;
         if !status.success() {
-            bail!("{program} failed ({status}); it says why above");
+            said.wait_for_end(PATIENCE);
+            bail!("{program} failed ({status}):\n{others}{}", said.last_lines(LINES_SHOWN));
         }
         Ok(())
     }

@@ -23,7 +23,8 @@ pub(super) fn draw(arguments: &ReplayArguments, file: &WordFile) -> anyhow::Resu
     let job = Job { words: arguments.words.clone(), units: arguments.units, pins: arguments.pins, wave };
 
     let swaps = file.entries().filter(|entry| entry.packet == Ok(Packet::Swap)).count();
-    let step = progress.step(format!("drawing {} words with {} pixel units", file.words.len(), job.units));
+    let step =
+        progress.step(format!("drawing {} words with {} pixel units", thousands(file.words.len() as u64), job.units));
     let mut costs = Vec::new();
     let drawn = verilated.replay(&job, |cost| {
         costs.push(cost);
