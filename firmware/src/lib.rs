@@ -48,6 +48,7 @@ pub mod ps2;
 pub mod raspi2b;
 pub mod scene;
 pub mod software_fpga;
+pub mod style;
 #[cfg(all(target_arch = "arm", feature = "usb"))]
 pub mod usb;
 pub mod vexpress_a9;

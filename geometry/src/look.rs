@@ -45,6 +45,9 @@ impl VertexLook {
 pub struct LitColour(u32);
 
 impl LitColour {
+    /// Black.
+    pub const BLACK: Self = Self(0);
+
     /// Returns red, green and blue.
     #[inline(always)]
     pub const fn to_rgb888(self) -> [u8; 3] {
