@@ -17,7 +17,7 @@ pub use values::Rotation;
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
     ("See it work", &["demo", "run", "pad"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
-    ("Check and measure", &["test", "bench"]),
+    ("Check and measure", &["test", "bench", "area"]),
     ("Keep generated files fresh", &["generate"]),
 ];
 
@@ -86,6 +86,11 @@ pub enum Task {
     /// Counts the Cortex-A9's instructions in QEMU and the FPGA's clocks in Verilator, and times
     /// geometry and software model on this computer, as an optimised build: median of several runs.
     Bench(BenchArguments),
+    /// Counts what the FPGA's design takes of the device, with Yosys
+    ///
+    /// Writes the table into rtl/README.md; logs stay in target/area. Yosys maps to the Cyclone V's
+    /// cells but places nothing: only Quartus can tell whether it fits and how fast it is.
+    Area(AreaArguments),
     /// Writes the files that are generated and committed
     Generate(GenerateArguments),
 }
@@ -250,6 +255,17 @@ pub struct DecodeArguments {
     pub words: PathBuf,
 }
 
+/// Flags of `area`.
+#[derive(Debug, Args)]
+pub struct AreaArguments {
+    /// Writes nothing and fails when the table is stale
+    #[arg(long)]
+    pub check: bool,
+    /// Synthesizes only this number of pixel units, and writes nothing
+    #[arg(long, value_name = "1|2|4|8", value_parser = parse_units)]
+    pub units: Option<u32>,
+}
+
 /// Flags of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
@@ -289,6 +305,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
         Task::Bench(arguments) => commands::bench::run(arguments),
+        Task::Area(arguments) => commands::area::run(arguments),
         Task::Generate(arguments) => commands::generate::run(arguments),
     }
 }

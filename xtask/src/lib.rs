@@ -31,6 +31,7 @@
 #[cfg(not(unix))]
 compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS or in WSL");
 
+pub mod area;
 pub mod boot;
 pub mod cargo_build;
 pub mod checks;

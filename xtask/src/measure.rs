@@ -55,7 +55,8 @@ pub enum Better {
 }
 
 impl Measurement {
-    fn new(name: &str, value: f64, unit: &str) -> Self {
+    /// Returns a figure without a bar, rounded to hundredths; less is better.
+    pub fn new(name: &str, value: f64, unit: &str) -> Self {
         let value = (value * 100.0).round() / 100.0;
         Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower }
     }
