@@ -19,6 +19,7 @@ use crate::{Dwc2, TransferError};
 ///
 /// - A control transfer fails with `Timeout` when it has not moved for the time given to
 ///   [`set_timeout`](UsbPipe::set_timeout) (USB 2.0 §9.2.6.4: 500 ms with data, 50 ms without, to begin with).
+/// - A control transfer's bytes must cover its wLength, else it fails with `BufferOverflow` before it begins.
 /// - A bulk transfer is tried as long as the device answers NAK.
 /// - `request_in` on an interrupt pipe returns one packet, the next that the device has; the endpoint is asked no more often than its
 ///   interval says, and only while somebody waits.
@@ -65,7 +66,7 @@ async fn read<'d>(
     buffer: &mut [u8],
 ) -> Result<usize, TransferError> {
     let watch = Watch { driver, index };
-    let total = setup.map_or(buffer.len(), |setup| buffer.len().min(length_of(setup)));
+    let total = data_length(setup, buffer.len())?;
     watch
         .submit(|state, endpoint| match setup {
             Some(setup) => {
@@ -93,7 +94,7 @@ async fn write<'d>(
     zero_packet: bool,
 ) -> Result<(), TransferError> {
     let watch = Watch { driver, index };
-    let total = setup.map_or(bytes.len(), |setup| bytes.len().min(length_of(setup)));
+    let total = data_length(setup, bytes.len())?;
     watch
         .submit(|state, endpoint| {
             let transfer = match setup {
@@ -114,9 +115,11 @@ async fn write<'d>(
     Ok(())
 }
 
-/// A SETUP packet's wLength.
-fn length_of(setup: &[u8; 8]) -> usize {
-    usize::from(u16::from_le_bytes([setup[6], setup[7]]))
+/// Bytes of the data stage: a SETUP packet's wLength, which the caller's bytes have to cover, or all of those.
+fn data_length(setup: Option<&[u8; 8]>, bytes: usize) -> Result<usize, TransferError> {
+    let Some(setup) = setup else { return Ok(bytes) };
+    let length = usize::from(u16::from_le_bytes([setup[6], setup[7]]));
+    if length > bytes { Err(TransferError::BufferOverflow) } else { Ok(length) }
 }
 
 impl State<'_> {

@@ -89,7 +89,20 @@ rules! {
     CompleteWithoutStart: "A complete split follows a start split for the same endpoint.", "USB 2.0 §11.14";
     SplitRestarted: "A start split that was taken is followed by complete splits until they are answered, or fail.", "USB 2.0 §11.17.1";
     SplitAbandoned: "What a translator has for a control or bulk endpoint is fetched, or cleared.", "USB 2.0 §11.17.4 and §11.24.2.3";
-    StartSplitCrowd: "A translator gets at most 16 periodic start splits a microframe.", "USB 2.0 §11.18.4, as Linux cites it";
+}
+
+impl Rule {
+    /// The test in `host-tests/tests/usb_driver/rules` that fails when a driver that breaks the rule goes unnoticed.
+    pub fn test(self) -> String {
+        let mut name = String::new();
+        for letter in format!("{self:?}").chars() {
+            if letter.is_uppercase() && !name.is_empty() {
+                name.push('_');
+            }
+            name.extend(letter.to_lowercase());
+        }
+        name
+    }
 }
 
 impl fmt::Display for Rule {

@@ -4,4 +4,6 @@ mod gadget;
 mod rig;
 mod stack;
 
+mod hubs;
 mod root;
+mod rules;

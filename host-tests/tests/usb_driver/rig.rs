@@ -17,17 +17,31 @@ use usb_model::wire::Device;
 /// Where the DMA memory lies on the bus.
 const BASE: u32 = 0x3000_0000;
 
-/// Changes a register write on its way: `None` drops it.
-pub type WriteTamper = Box<dyn FnMut(u32, u32) -> Option<u32> + Send>;
+/// Changes a register write on its way, or drops it (`None`), or does something else besides.
+pub type WriteTamper = Box<dyn FnMut(&mut Machine, u32, u32) -> Option<u32> + Send>;
+/// Changes what a register read says.
+pub type ReadTamper = Box<dyn FnMut(&mut Machine, u32, u32) -> u32 + Send>;
+
+/// Which calls of `invalidate` never reach the caches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Skip {
+    #[default]
+    None,
+    /// All.
+    All,
+    /// Those after the core wrote.
+    After,
+}
 
 /// What a broken driver would do, done between a right one and the model.
 #[derive(Default)]
 pub struct Tamper {
-    pub write: Option<WriteTamper>,
+    write: Option<WriteTamper>,
+    read: Option<ReadTamper>,
     pub skip_clean: bool,
-    pub skip_invalidate: bool,
-    /// Added to the DMA memory's bus address.
-    pub address_offset: u32,
+    pub skip_invalidate: Skip,
+    /// The driver's clock runs that many times too fast, less one: its waits are too short.
+    pub haste: u64,
 }
 
 /// The core, its memory, and what is done to the accesses.
@@ -38,6 +52,11 @@ pub struct Machine {
 }
 
 impl Machine {
+    fn write(&mut self, offset: u32, value: u32) {
+        self.core.write(offset, value);
+        self.core.settle(&mut self.memory);
+    }
+
     fn advance(&mut self, until: u64) {
         self.core.advance(until, &mut self.memory);
         self.memory.set_now(self.core.now());
@@ -52,18 +71,21 @@ fn lock(machine: &Mutex<Machine>) -> MutexGuard<'_, Machine> {
 
 impl Registers for TestBoard {
     fn read_register(&mut self, offset: u32) -> u32 {
-        lock(&self.0).core.read(offset)
+        let mut machine = lock(&self.0);
+        let value = machine.core.read(offset);
+        let Some(mut tamper) = machine.tamper.read.take() else { return value };
+        let value = tamper(&mut machine, offset, value);
+        machine.tamper.read = Some(tamper);
+        value
     }
 
     fn write_register(&mut self, offset: u32, value: u32) {
         let mut machine = lock(&self.0);
-        let value = match &mut machine.tamper.write {
-            Some(tamper) => tamper(offset, value),
-            None => Some(value),
-        };
-        if let Some(value) = value {
-            machine.core.write(offset, value);
+        let Some(mut tamper) = machine.tamper.write.take() else { return machine.write(offset, value) };
+        if let Some(value) = tamper(&mut machine, offset, value) {
+            machine.write(offset, value);
         }
+        machine.tamper.write = Some(tamper);
     }
 }
 
@@ -73,8 +95,7 @@ impl DmaMemory for TestBoard {
     }
 
     fn bus_address(&self) -> u32 {
-        let machine = lock(&self.0);
-        machine.memory.base() + machine.tamper.address_offset
+        lock(&self.0).memory.base()
     }
 
     fn copy_in(&mut self, offset: usize, bytes: &[u8]) {
@@ -94,7 +115,12 @@ impl DmaMemory for TestBoard {
 
     fn invalidate(&mut self, offset: usize, length: usize) {
         let mut machine = lock(&self.0);
-        if !machine.tamper.skip_invalidate {
+        let skip = match machine.tamper.skip_invalidate {
+            Skip::None => false,
+            Skip::All => true,
+            Skip::After => machine.memory.is_stale(offset, length),
+        };
+        if !skip {
             machine.memory.invalidate(offset, length);
         }
     }
@@ -102,7 +128,8 @@ impl DmaMemory for TestBoard {
 
 impl Clock for TestBoard {
     fn now_us(&self) -> u64 {
-        lock(&self.0).core.now()
+        let machine = lock(&self.0);
+        machine.core.now() * (machine.tamper.haste + 1)
     }
 }
 
@@ -166,8 +193,13 @@ impl Rig {
     }
 
     /// Changes every write that the driver makes from now on.
-    pub fn tamper(&self, write: impl FnMut(u32, u32) -> Option<u32> + Send + 'static) {
+    pub fn tamper_writes(&self, write: impl FnMut(&mut Machine, u32, u32) -> Option<u32> + Send + 'static) {
         self.machine().tamper.write = Some(Box::new(write));
+    }
+
+    /// Changes every read that the driver makes from now on.
+    pub fn tamper_reads(&self, read: impl FnMut(&mut Machine, u32, u32) -> u32 + Send + 'static) {
+        self.machine().tamper.read = Some(Box::new(read));
     }
 
     /// Rules broken so far, each once; they are forgiven.

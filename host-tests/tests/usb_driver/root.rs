@@ -31,7 +31,7 @@ fn control_data_of_every_length_comes_back() {
         rig.plug(Gadget::new(speed));
         let packet = if speed == wire::Speed::Low { 8 } else { 64 };
         rig.run(async {
-            let known = enumerate_root(&rig, 5).await;
+            let known = enumerate_root(&rig, 5).await.unwrap();
             let mut control = known.control(packet);
             for length in [0_u16, 1, 7, 8, 9, 63, 64, 65, 127, 128, 511, 512, 513, 1024, 1500] {
                 let sent: Vec<u8> = (0..length).map(|at| (at * 7 + length) as u8).collect();
@@ -52,7 +52,7 @@ fn reports_arrive_in_order_once_each() {
         let device = Shared::new(Gadget::counting(speed));
         rig.plug(device.clone());
         rig.run(async {
-            let known = enumerate_root(&rig, 5).await;
+            let known = enumerate_root(&rig, 5).await.unwrap();
             let mut reports = known.reports(8, 1);
             for expected in 0..300_u32 {
                 let mut bytes = [0; 8];

@@ -76,8 +76,11 @@ pub async fn enumerate(rig: &Rig, speed: Speed, split: Option<SplitInfo>, addres
     // USB 2.0 §9.2.6.3.
     rig.sleep(2_000).await;
     let known = Known { address, ..known };
+    if !matches!(descriptor[7], 8 | 16 | 32 | 64) {
+        return Err(PipeError::BadResponse);
+    }
     let mut control = known.control(descriptor[7].into());
-    assert_eq!(control.control_in(&setup(0x80, 6, 0x0100, 0, 18), &mut descriptor).await?, 18);
+    control.control_in(&setup(0x80, 6, 0x0100, 0, 18), &mut descriptor).await?;
     let mut configuration = [0; 64];
     control.control_in(&setup(0x80, 6, 0x0200, 0, 64), &mut configuration).await?;
     control.control_out(&setup(0, 9, 1, 0, 0), &[]).await?;
@@ -85,9 +88,9 @@ pub async fn enumerate(rig: &Rig, speed: Speed, split: Option<SplitInfo>, addres
 }
 
 /// A device on the root port.
-pub async fn enumerate_root(rig: &Rig, address: u8) -> Known {
+pub async fn enumerate_root(rig: &Rig, address: u8) -> Result<Known, PipeError> {
     let speed = connected(rig).await;
-    enumerate(rig, speed, None, address).await.expect("a good device")
+    enumerate(rig, speed, None, address).await
 }
 
 /// A hub that has been configured.
@@ -99,54 +102,54 @@ pub struct HubHost {
 
 impl HubHost {
     /// The hub on the root port: address 1, all ports with power.
-    pub async fn on_root(rig: &Rig) -> Self {
+    pub async fn on_root(rig: &Rig) -> Result<Self, PipeError> {
         let speed = connected(rig).await;
-        let known = enumerate(rig, speed, None, 1).await.expect("a good hub");
+        let known = enumerate(rig, speed, None, 1).await?;
         let mut hub = Self { known, control: known.control(64), speed };
         for port in 1..=4 {
-            hub.feature(true, 8, port).await;
+            hub.feature(true, 8, port).await?;
         }
         // bPwrOn2PwrGood, USB 2.0 §11.11.
         rig.sleep(100_000).await;
-        hub
+        Ok(hub)
     }
 
-    pub async fn feature(&mut self, on: bool, feature: u16, port: u16) {
+    pub async fn feature(&mut self, on: bool, feature: u16, port: u16) -> Result<(), PipeError> {
         let request = if on { 3 } else { 1 };
-        self.control.control_out(&setup(0x23, request, feature, port, 0), &[]).await.expect("a good hub");
+        self.control.control_out(&setup(0x23, request, feature, port, 0), &[]).await
     }
 
     /// wPortStatus and wPortChange.
-    pub async fn status(&mut self, port: u16) -> (u16, u16) {
+    pub async fn status(&mut self, port: u16) -> Result<(u16, u16), PipeError> {
         let mut bytes = [0; 4];
-        self.control.control_in(&setup(0xa3, 0, 0, port, 4), &mut bytes).await.expect("a good hub");
-        (u16::from_le_bytes([bytes[0], bytes[1]]), u16::from_le_bytes([bytes[2], bytes[3]]))
+        self.control.control_in(&setup(0xa3, 0, 0, port, 4), &mut bytes).await?;
+        Ok((u16::from_le_bytes([bytes[0], bytes[1]]), u16::from_le_bytes([bytes[2], bytes[3]])))
     }
 
     /// Waits for a device in a port, resets it; its speed.
-    pub async fn reset_port(&mut self, rig: &Rig, port: u16) -> Speed {
-        while self.status(port).await.0 & 1 == 0 {
+    pub async fn reset_port(&mut self, rig: &Rig, port: u16) -> Result<Speed, PipeError> {
+        while self.status(port).await?.0 & 1 == 0 {
             rig.sleep(5_000).await;
         }
-        self.feature(false, 16, port).await;
+        self.feature(false, 16, port).await?;
         // TATTDB, USB 2.0 §7.1.7.3.
         rig.sleep(100_000).await;
-        self.feature(true, 4, port).await;
+        self.feature(true, 4, port).await?;
         let status = loop {
             rig.sleep(2_000).await;
-            let (status, change) = self.status(port).await;
+            let (status, change) = self.status(port).await?;
             if change & 1 << 4 != 0 {
                 break status;
             }
         };
-        self.feature(false, 20, port).await;
+        self.feature(false, 20, port).await?;
         // TRSTRCY, USB 2.0 §7.1.7.5.
         rig.sleep(10_000).await;
-        match status >> 9 & 3 {
+        Ok(match status >> 9 & 3 {
             0 => Speed::Full,
             1 => Speed::Low,
             _ => Speed::High,
-        }
+        })
     }
 
     /// How a device of this speed is reached.
@@ -162,7 +165,7 @@ impl HubHost {
 
     /// The device in a port, with an address.
     pub async fn enumerate(&mut self, rig: &Rig, port: u16, address: u8) -> Result<Known, PipeError> {
-        let speed = self.reset_port(rig, port).await;
+        let speed = self.reset_port(rig, port).await?;
         enumerate(rig, speed, self.route(port, speed), address).await
     }
 }

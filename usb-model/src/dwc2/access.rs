@@ -1,5 +1,6 @@
 //! Register reads and writes.
 
+use super::channel::Channel;
 use super::registers::*;
 use super::{Core, FLUSH_US, RESET_US, Registers};
 use crate::violation::Rule;
@@ -106,7 +107,9 @@ impl Core {
         self.phy_at_reset = Some(phy & GUSBCFG_PHY);
         self.flushed = (false, false);
         self.disconnected = false;
-        self.channels.fill_with(Default::default);
+        for channel in &mut self.channels {
+            *channel = Channel { lent: channel.lent, ..Channel::default() };
+        }
         self.reset_port();
         self.timers.host_from = None;
         self.choose_role();
