@@ -184,17 +184,20 @@ impl Slot {
     }
 
     /// A transfer that is not wanted any more ends, but a translator is not left with an answer that nobody fetches:
-    /// its buffer would stay taken (USB 2.0 §11.17.4).
+    /// its buffer would stay taken (USB 2.0 §11.17.4), and a report would be lost.
     fn seal(&self, verdict: Verdict) -> Verdict {
-        match self.effort.fate {
-            Fate::Wanted => verdict,
+        match (self.effort.fate, verdict) {
+            (Fate::Wanted, _) => verdict,
             _ if self.owes_complete_split() => verdict,
-            fate => Verdict::End(fate.result()),
+            (Fate::Cancelled, Verdict::End(Ok(_))) if self.endpoint.periodic() && self.effort.transfer.input() => {
+                verdict
+            }
+            (fate, _) => Verdict::End(fate.result()),
         }
     }
 
-    /// A translator holds a buffer for this endpoint until a complete split fetches what is in it.
+    /// A translator holds something for this endpoint until a complete split fetches it.
     pub(crate) fn owes_complete_split(&self) -> bool {
-        matches!(self.effort.split, Split::Complete { .. }) && !self.endpoint.periodic()
+        matches!(self.effort.split, Split::Complete { .. })
     }
 }

@@ -22,7 +22,8 @@ use crate::{Dwc2, TransferError};
 /// - A control transfer's bytes must cover its wLength, else it fails with `BufferOverflow` before it begins.
 /// - A bulk transfer is tried as long as the device answers NAK.
 /// - `request_in` on an interrupt pipe returns one packet, the next that the device has; the endpoint is asked no more often than its
-///   interval says, and only while somebody waits.
+///   interval says, and only while somebody waits. A packet that comes while the request is being dropped is the next
+///   request's.
 /// - Three strikes in a row (no answer, or a broken one) end a transfer with `BadResponse`.
 pub struct Pipe<'d, T: pipe::Type, D: pipe::Direction> {
     driver: &'d Dwc2<'d>,
@@ -170,8 +171,11 @@ impl State<'_> {
         let now = self.hardware.now();
         if let Some(slot) = &mut self.slots[index] {
             slot.effort = Effort::new(transfer);
-            let from = if endpoint.periodic() { slot.next_turn.max(now) } else { now };
-            slot.activity = Activity::Waiting { from };
+            slot.activity = match slot.activity {
+                Activity::Kept(length) => Activity::Done(slot.effort.transfer.take_kept(length)),
+                _ if endpoint.periodic() => Activity::Waiting { from: slot.next_turn.max(now) },
+                _ => Activity::Waiting { from: now },
+            };
         }
         self.launch(now);
         Poll::Ready(Ok(()))
@@ -308,6 +312,9 @@ impl<T: pipe::Type, D: pipe::Direction> UsbPipe<T, D> for Pipe<'_, T, D> {
             if let Some(slot) = &mut state.slots[self.index] {
                 slot.toggle = false;
                 slot.ping = false;
+                if let Activity::Kept(_) = slot.activity {
+                    slot.activity = Activity::Idle;
+                }
             }
         });
     }

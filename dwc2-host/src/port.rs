@@ -194,7 +194,7 @@ impl State<'_> {
             match slot.activity {
                 Activity::Running { .. } | Activity::Halting { .. } => self.abandon(index, gone, now),
                 Activity::Waiting { .. } | Activity::Exchange => self.end(index, gone.result()),
-                Activity::Idle | Activity::Done(_) => {}
+                Activity::Idle | Activity::Done(_) | Activity::Kept(_) => {}
             }
         }
     }

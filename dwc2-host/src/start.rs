@@ -112,6 +112,10 @@ impl State<'_> {
         if id.product() != PRODUCT {
             return Err(Fault::WrongCore { id: id.0 });
         }
+        // One that an earlier start left.
+        if self.hardware.read::<Grstctl>().core_soft_reset() {
+            return Err(Fault::ResetStuck);
+        }
         let hardware: Ghwcfg2 = self.hardware.read();
         if hardware.architecture() != INTERNAL_DMA {
             return Err(Fault::NoInternalDma { hardware: hardware.0 });

@@ -200,8 +200,9 @@ impl<'d> State<'d> {
     pub(crate) fn end(&mut self, index: usize, result: Result<usize, TransferError>) {
         let Some(slot) = &mut self.slots[index] else { return };
         slot.effort.deadline = None;
-        slot.activity = match slot.effort.fate {
-            Fate::Cancelled => Activity::Idle,
+        slot.activity = match (slot.effort.fate, result) {
+            (Fate::Cancelled, Ok(length)) => Activity::Kept(length),
+            (Fate::Cancelled, Err(_)) => Activity::Idle,
             _ => Activity::Done(result),
         };
         let confused = matches!(result, Err(TransferError::NoAnswer | TransferError::Babble));

@@ -102,6 +102,12 @@ impl Transfer {
         self.chunk = (self.total - self.moved).min(endpoint.chunk_bytes());
     }
 
+    /// The packet that this transfer is for came before it, and lies in the buffer.
+    pub(crate) fn take_kept(&mut self, length: usize) -> Result<usize, TransferError> {
+        self.at = length;
+        if length > self.total { Err(TransferError::BufferOverflow) } else { Ok(length) }
+    }
+
     /// What to program next; `toggle` is DATA1.
     pub(crate) fn program(&self, endpoint: &Endpoint, toggle: bool) -> Program {
         let packet = usize::from(endpoint.packet_bytes);

@@ -34,7 +34,7 @@ macro_rules! rules {
 
 rules! {
     ResetWhileBusy: "A soft reset waits until the bus master is idle.", "Linux `dwc2/core.c` dwc2_core_reset; U-Boot `dwc2.c`";
-    AccessInReset: "While the soft reset runs, and until the bus master is idle again, only GRSTCTL is touched.", "Linux `dwc2/core.c` dwc2_core_reset";
+    AccessInReset: "While the soft reset runs, and until the bus master is idle again, only GRSTCTL is touched; the identity may be read.", "Linux `dwc2/core.c` dwc2_core_reset";
     DeviceMode: "Host registers are written in host mode only: 25 ms after it was forced.", "Linux `dwc2/core.c` dwc2_force_mode";
     PhyWithoutReset: "A change of the PHY's choice is followed by a soft reset.", "Linux `dwc2/core.c` dwc2_hs_phy_init; U-Boot `dwc2.c`";
     BothRoles: "The core is forced to be a host or a device, not both.", "Linux `dwc2/hw.h`, GUSBCFG bits 29 and 30";

@@ -33,6 +33,8 @@ pub struct Gadget {
     naks: u32,
     /// Reports for interrupt endpoint 1.
     pub reports: VecDeque<Vec<u8>>,
+    /// A report that it has from this moment on.
+    pub pressed: Option<(u64, Vec<u8>)>,
     /// Makes a report whenever it is asked.
     pub counting: Option<u32>,
     pub in_toggle: Toggle,
@@ -72,6 +74,7 @@ impl Gadget {
             hesitation: 0,
             naks: 0,
             reports: VecDeque::new(),
+            pressed: None,
             counting: None,
             in_toggle: Toggle::Data0,
             polls: Vec::new(),
@@ -233,6 +236,9 @@ impl Device for Gadget {
             0 => self.control_in(),
             1 if self.configured => {
                 self.polls.push(now);
+                if let Some((_, report)) = self.pressed.take_if(|(from, _)| *from <= now) {
+                    self.reports.push_back(report);
+                }
                 self.report().map_or(Answer::Nak, |report| Answer::Data(self.in_toggle, report))
             }
             3 if self.configured => {

@@ -180,6 +180,14 @@ impl Rig {
         lock(&self.machine)
     }
 
+    /// The board resets the core; time goes on.
+    pub fn replace_core(&self, build: Build) {
+        let now = self.now();
+        let mut machine = self.machine();
+        machine.core = Core::new(build, self.log.clone());
+        machine.advance(now);
+    }
+
     pub fn plug(&self, device: impl Device + Send + 'static) {
         self.machine().core.plug(Box::new(device));
     }
@@ -208,10 +216,6 @@ impl Rig {
         rules.sort_unstable();
         rules.dedup();
         rules
-    }
-
-    pub fn violations(&self) -> usize {
-        self.log.count()
     }
 
     /// Time until the next interrupt or poll, and the driver's answer to it.

@@ -24,7 +24,7 @@ pub fn endpoint(number: usize, kind: EndpointType, input: bool, bytes: u16, inte
 /// A device that has an address.
 #[derive(Clone, Copy)]
 pub struct Known {
-    allocator: Allocator<'static>,
+    pub allocator: Allocator<'static>,
     pub address: u8,
     pub split: Option<SplitInfo>,
 }
@@ -126,6 +126,12 @@ impl HubHost {
         Ok((u16::from_le_bytes([bytes[0], bytes[1]]), u16::from_le_bytes([bytes[2], bytes[3]])))
     }
 
+    /// A device that was in a port all the time, from its reset on.
+    pub async fn enumerate_again(&mut self, rig: &Rig, port: u16, address: u8) -> Result<Known, PipeError> {
+        let speed = self.reset_now(rig, port).await?;
+        enumerate(rig, speed, self.route(port, speed), address).await
+    }
+
     /// Waits for a device in a port, resets it; its speed.
     pub async fn reset_port(&mut self, rig: &Rig, port: u16) -> Result<Speed, PipeError> {
         while self.status(port).await?.0 & 1 == 0 {
@@ -134,6 +140,10 @@ impl HubHost {
         self.feature(false, 16, port).await?;
         // TATTDB, USB 2.0 §7.1.7.3.
         rig.sleep(100_000).await;
+        self.reset_now(rig, port).await
+    }
+
+    async fn reset_now(&mut self, rig: &Rig, port: u16) -> Result<Speed, PipeError> {
         self.feature(true, 4, port).await?;
         let status = loop {
             rig.sleep(2_000).await;

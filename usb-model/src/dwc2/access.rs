@@ -8,7 +8,7 @@ use crate::violation::Rule;
 impl Core {
     /// Reads a register.
     pub fn read(&mut self, offset: u32) -> u32 {
-        if self.timers.reset_end.is_some() && offset != GRSTCTL {
+        if self.timers.reset_end.is_some() && !matches!(offset, GRSTCTL | GSNPSID) {
             self.blame(Rule::AccessInReset, format!("read of {offset:#05x}"));
         }
         match offset {
@@ -63,6 +63,7 @@ impl Core {
             PCGCTL => self.registers.power = value,
             _ => {}
         }
+        self.watch_line();
     }
 
     fn reset_control(&self) -> u32 {
