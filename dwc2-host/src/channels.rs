@@ -67,7 +67,7 @@ impl State<'_> {
 
     /// Starts every step that is due, as far as there are channels.
     pub(crate) fn launch(&mut self, now: u64) {
-        if !matches!(self.phase, Phase::Ready { .. }) {
+        if self.phase != Phase::Ready {
             return;
         }
         self.give_up_late_splits();
