@@ -5,13 +5,12 @@ use core::convert::Infallible;
 use core::future::poll_fn;
 use core::task::Poll;
 
-use embassy_usb_driver::host::{PipeError, UsbHostAllocator, UsbPipe, pipe};
-
+use crate::bring_up::unless_refused;
 use crate::descriptor::HidInterface;
 use crate::link::Link;
 use crate::setup::{ReportType, Setup};
-use crate::timing::{PULSE_US, STAGE_TIMEOUT_US};
-use crate::{Clock, Fault, Identity, Step};
+use crate::timing::PULSE_US;
+use crate::{Fault, Identity, Step};
 
 /// idVendor and idProduct.
 pub(crate) const PRODUCT: (u16, u16) = (0x054C, 0x0268);
@@ -19,40 +18,24 @@ pub(crate) const PRODUCT: (u16, u16) = (0x054C, 0x0268);
 /// Length of output report 0x01 without its id (Linux `hid-sony.c`).
 const OUTPUT_LENGTH: usize = 35;
 
-/// Takes a refusal for an answer: not every pad knows every request.
-fn unless_refused<T>(result: Result<T, Fault>) -> Result<Option<T>, Fault> {
-    match result {
-        Ok(value) => Ok(Some(value)),
-        Err(Fault::Transfer { error: PipeError::Stall, .. }) => Ok(None),
-        Err(fault) => Err(fault),
-    }
-}
-
 /// Tells the pad to send reports, which it does not by itself.
 ///
 /// Reading feature report 0xF2 does for Linux, writing 0xF4 for many others; both go out, and either may be refused.
 /// Pads made by others want 0xF5 read and a byte written to their interrupt endpoint as well, but for
 /// ShanWan's, which that makes shake for ever (Linux `hid-sony.c`). How these two end does not matter.
-pub(crate) async fn wake<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    hid: &HidInterface,
-    identity: &Identity,
-) -> Result<(), Fault> {
-    let mut answer = [0; 17];
-    unless_refused(link.read(Step::Wake, get_feature(0xF2, hid), &mut answer).await)?;
-    let asked = link.read(Step::Wake, get_feature(0xF5, hid), &mut answer[..8]).await.is_ok();
-    if let (true, Some(output), false) = (asked, hid.output, is_shanwan(identity))
-        && let Ok(mut pipe) = link.interrupt_pipe::<pipe::Out>(Step::Wake, output).await
+pub(crate) async fn wake(link: &Link<'_>, hid: &HidInterface, identity: &Identity) -> Result<(), Fault> {
+    const DOING: Step = Step::Wake;
+    let get_feature = |id| Setup::get_report(ReportType::Feature, id, hid.number);
+    unless_refused(link.read(DOING, get_feature(0xF2), 17).await)?;
+    if let (Ok(count), Some(output), false) =
+        (link.read(DOING, get_feature(0xF5), 8).await, hid.output, is_shanwan(identity))
     {
-        let _ = link.bus.within(STAGE_TIMEOUT_US, pipe.request_out(&answer[..1], false)).await;
+        let byte = link.data(count).first().copied().unwrap_or(0);
+        let _ = link.send(DOING, output, &[byte]).await;
     }
     let operational = Setup::set_report(ReportType::Feature, 0xF4, hid.number);
-    unless_refused(link.write(Step::Wake, operational, &[0x42, 0x0C, 0, 0]).await)?;
+    unless_refused(link.write(DOING, operational, &[0x42, 0x0C, 0, 0]).await)?;
     Ok(())
-}
-
-fn get_feature(id: u8, hid: &HidInterface) -> Setup {
-    Setup::get_report(ReportType::Feature, id, hid.number)
 }
 
 fn is_shanwan(identity: &Identity) -> bool {
@@ -63,34 +46,22 @@ fn is_shanwan(identity: &Identity) -> bool {
 
 /// Lights the player's lamp once the pad has sent its first report, which ends its own blinking, and gives a pulse
 /// whenever the pose is frozen, if that is wanted. Failures are left at that.
-pub(crate) async fn outputs<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    hid: &HidInterface,
-    reported: &Cell<bool>,
-) -> Infallible {
-    let memory = link.bus.memory;
+pub(crate) async fn outputs(link: &Link<'_>, hid: &HidInterface, reported: &Cell<bool>) -> Infallible {
+    let memory = link.memory;
     let player = memory.config.player;
+    let setup = Setup::set_report(ReportType::Output, 0x01, hid.number);
     wait_until(|| reported.get()).await;
-    let _ = send(link, hid, &output(player, false)).await;
     loop {
+        let _ = link.write(Step::Reports, setup, &output(player, false)).await;
         wait_until(|| !memory.frozen.get()).await;
         wait_until(|| memory.config.pulse_on_freeze && memory.frozen.get()).await;
-        let _ = send(link, hid, &output(player, true)).await;
-        link.bus.sleep(PULSE_US).await;
-        let _ = send(link, hid, &output(player, false)).await;
+        let _ = link.write(Step::Reports, setup, &output(player, true)).await;
+        memory.sleep(PULSE_US).await;
     }
 }
 
 async fn wait_until(condition: impl Fn() -> bool) {
     poll_fn(|_| if condition() { Poll::Ready(()) } else { Poll::Pending }).await;
-}
-
-async fn send<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    hid: &HidInterface,
-    report: &[u8; OUTPUT_LENGTH],
-) -> Result<(), Fault> {
-    link.write(Step::Reports, Setup::set_report(ReportType::Output, 0x01, hid.number), report).await
 }
 
 /// Makes output report 0x01, without its id: the small motor on or off, one of four lamps lit.

@@ -30,7 +30,7 @@
 extern crate std;
 
 mod bring_up;
-mod bus;
+mod carrier;
 mod clock;
 mod config;
 mod descriptor;
@@ -43,10 +43,13 @@ mod hid;
 mod hub;
 mod identity;
 mod link;
+mod listen;
+mod mailbox;
 mod memory;
 mod place;
 mod reader;
 mod reports;
+mod root;
 mod route;
 mod run;
 mod setup;

@@ -4,26 +4,21 @@ use core::cell::Cell;
 use core::convert::Infallible;
 
 use embassy_futures::select::{Either, select};
-use embassy_futures::yield_now;
-use embassy_usb_driver::host::{PipeError, UsbHostAllocator, UsbPipe, pipe};
 
 use crate::descriptor::{HidInterface, PACKET_MAXIMUM};
 use crate::link::Link;
+use crate::listen::Patience;
+use crate::mailbox::ListenError;
 use crate::reader::{Reader, Reading, low_battery};
-use crate::setup::Setup;
-use crate::timing::{READ_ERRORS_MAXIMUM, READ_PAUSE_US};
-use crate::{Clock, Event, Fault, Step, dualshock3};
-
-/// Packets of one device that one poll takes at most.
-const PACKETS_A_ROUND: u32 = 4;
+use crate::{Event, Fault, Step, dualshock3};
 
 /// What is remembered of a device from one report to the next.
 #[derive(Default)]
 struct Course {
     /// It has sent a report.
     reported: Cell<bool>,
-    /// Failed transfers in a row.
-    errors: Cell<u32>,
+    /// A packet came since a transfer failed last.
+    heard: Cell<bool>,
     /// A short report was told of.
     short_told: Cell<bool>,
     /// A low battery was told of.
@@ -31,13 +26,10 @@ struct Course {
 }
 
 /// Reads reports until the device fails for good.
-pub(crate) async fn serve<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: Link<'_, A, K>,
-    hid: HidInterface,
-    reader: &Reader,
-) -> Result<Infallible, Fault> {
+pub(crate) async fn serve(link: Link<'_>, hid: HidInterface, reader: &Reader) -> Result<Infallible, Fault> {
     let course = Course::default();
-    let mut pipe = link.interrupt_pipe::<pipe::In>(Step::Reports, hid.input).await?;
+    let mut patience = Patience::default();
+    link.listen(hid.input);
     loop {
         let outputs = async {
             match reader {
@@ -45,83 +37,60 @@ pub(crate) async fn serve<'d, A: UsbHostAllocator<'d>, K: Clock>(
                 _ => core::future::pending().await,
             }
         };
-        let packet = usize::from(hid.input.packet);
-        let error = match select(read(&link, &mut pipe, packet, reader, &course), outputs).await {
+        let error = match select(read(&link, &hid, reader, &course), outputs).await {
             Either::First(error) => error,
             Either::Second(never) => match never {},
         };
-        let errors = course.errors.get();
-        if errors >= READ_ERRORS_MAXIMUM {
-            return Err(Fault::Transfer { doing: Step::Reports, error });
+        if course.heard.take() {
+            patience = Patience::default();
         }
-        course.errors.set(errors + 1);
-        link.bus.sleep(READ_PAUSE_US << errors).await;
-        if error == PipeError::Stall {
-            link.write(Step::Reports, Setup::clear_halt(0x80 | hid.input.number), &[]).await?;
-            pipe.reset_data_toggle();
-        }
+        patience.recover(&link, Step::Reports, hid.input, error).await?;
     }
 }
 
 /// Reads reports until a transfer fails.
-async fn read<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    pipe: &mut impl UsbPipe<pipe::Interrupt, pipe::In>,
-    packet: usize,
-    reader: &Reader,
-    course: &Course,
-) -> PipeError {
-    let memory = link.bus.memory;
+async fn read(link: &Link<'_>, hid: &HidInterface, reader: &Reader, course: &Course) -> ListenError {
+    let packet = usize::from(hid.input.packet);
     let mut report = [0; PACKET_MAXIMUM as usize];
-    let (mut filled, mut round, mut packets) = (0, memory.round.get(), 0);
+    let mut filled = 0;
     loop {
-        // A slice of exactly one packet: it ends at a short packet or when the report is whole, whatever
-        // a controller makes of a longer one.
-        let count = match pipe.request_in(&mut report[filled..filled + packet]).await {
-            Ok(count) => count.min(packet),
+        let arrival = link.mailbox().packet(|bytes| {
+            let count = bytes.len().min(report.len() - filled);
+            report[filled..filled + count].copy_from_slice(&bytes[..count]);
+            count
+        });
+        let count = match arrival.await {
+            Ok(count) => count,
             Err(error) => return error,
         };
-        course.errors.set(0);
+        course.heard.set(true);
         filled += count;
+        // A report ends with a packet that is not full, or when it is whole.
         if count < packet || filled >= reader.length() || filled + packet > report.len() {
-            take(link, reader.read(&report[..filled]), filled, course).await;
+            let reading = reader.read(&report[..filled]);
+            take(link, reading, filled, course).await;
             filled = 0;
-        }
-        if round != memory.round.get() {
-            (round, packets) = (memory.round.get(), 0);
-        }
-        packets += 1;
-        if packets >= PACKETS_A_ROUND {
-            yield_now().await;
         }
     }
 }
 
 /// Tells what a report of some bytes says.
-async fn take<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    reading: Reading,
-    length: usize,
-    course: &Course,
-) {
-    let device = link.route.place;
-    match reading {
-        Reading::Keyboard(report) => {
-            course.reported.set(true);
-            link.bus.tell(Event::KeyboardReport { device, report }).await;
-        }
+async fn take(link: &Link<'_>, reading: Reading, length: usize, course: &Course) {
+    let (memory, device) = (link.memory, link.route.place);
+    let event = match reading {
+        Reading::Keyboard(report) => Event::KeyboardReport { device, report },
         Reading::Pad(report) => {
             course.reported.set(true);
-            link.bus.tell(Event::PadReport { device, report }).await;
             let low = low_battery(&report);
-            if let (Some(battery), false) = (low, course.battery_told.get()) {
-                link.bus.tell(Event::BatteryLow { device, battery }).await;
+            if let (Some(battery), false) = (low, course.battery_told.replace(low.is_some())) {
+                memory.tell(Event::BatteryLow { device, battery }).await;
             }
-            course.battery_told.set(low.is_some());
+            Event::PadReport { device, report }
         }
         Reading::Short if !course.short_told.replace(true) => {
-            link.bus.tell_fault(device, Fault::Report { length: length as u8 }).await;
+            Event::Fault { device, fault: Fault::Report { length: length as u8 } }
         }
-        Reading::Short | Reading::Nothing => {}
-    }
+        Reading::Short | Reading::Nothing => return,
+    };
+    memory.tell(event).await;
 }

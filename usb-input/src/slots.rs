@@ -23,6 +23,10 @@ impl SlotIndex {
         Self(index as u8)
     }
 
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
+    }
+
     /// The address of the device, 1…127.
     pub(crate) const fn address(self) -> u8 {
         self.0 + 1
@@ -76,7 +80,7 @@ impl Slots {
     }
 
     fn slot(&self, index: SlotIndex) -> &Slot {
-        &self.slots[usize::from(index.0)]
+        &self.slots[index.index()]
     }
 
     /// Tells whether a new device at a place may be reset: no other has address 0, and who was there before
@@ -134,12 +138,8 @@ impl Slots {
         }
     }
 
-    /// Waits until a device is to be let go.
-    pub(crate) async fn left(&self, index: SlotIndex) {
-        poll_fn(|_| if self.is_leaving(index) { Poll::Ready(()) } else { Poll::Pending }).await;
-    }
-
-    fn is_leaving(&self, index: SlotIndex) -> bool {
+    /// Tells whether a device is to be let go.
+    pub(crate) fn is_leaving(&self, index: SlotIndex) -> bool {
         matches!(self.slot(index).phase.get(), Phase::Leaving)
     }
 

@@ -1,13 +1,13 @@
 //! One port of a hub.
 
 use embassy_usb_driver::Speed;
-use embassy_usb_driver::host::UsbHostAllocator;
 
 use crate::link::Link;
+use crate::mailbox::Transfer;
 use crate::setup::Setup;
 use crate::slots::SlotIndex;
 use crate::timing::{ATTEMPTS, PORT_DEBOUNCE_US, PORT_RESET_STEP_US, PORT_RESET_TIMEOUT_US, RETRY_PAUSE_US};
-use crate::{Clock, Fault, Step};
+use crate::{Fault, Step};
 
 /// Feature selectors (USB 2.0 table 11-17).
 pub(super) mod feature {
@@ -77,17 +77,14 @@ impl Port {
     }
 
     /// Asks the port what has changed, and takes note of it.
-    pub(super) async fn look<'d, A: UsbHostAllocator<'d>, K: Clock>(
-        &mut self,
-        link: &Link<'_, A, K>,
-    ) -> Result<(), Fault> {
+    pub(super) async fn look(&mut self, link: &Link<'_>) -> Result<(), Fault> {
         let port = self.status(link).await?;
         for change in (0..=bit::LAST_CHANGE).filter(|change| port.has_changed(1 << change)) {
             self.clear(link, feature::CHANGES + change).await?;
         }
         if port.has_changed(bit::OVER_CURRENT) {
             if port.is(bit::OVER_CURRENT) {
-                link.bus.tell_fault(link.route.place, Fault::OverCurrent).await;
+                link.memory.tell_fault(link.route.place, Fault::OverCurrent).await;
             } else {
                 self.set(link, feature::POWER).await?;
             }
@@ -97,48 +94,45 @@ impl Port {
         if port.has_changed(bit::CONNECTION) || unnoticed || !connected {
             self.let_go(link);
             self.attempts = 0;
-            self.due_us = connected.then(|| link.bus.now_us() + PORT_DEBOUNCE_US);
+            self.due_us = connected.then(|| link.memory.now_us() + PORT_DEBOUNCE_US);
         } else if port.has_changed(bit::ENABLE) && !port.is(bit::ENABLE) && self.device.is_some() {
             // The hub cut it off for what it did on the bus (§11.8.1).
             self.let_go(link);
-            self.due_us = Some(link.bus.now_us() + RETRY_PAUSE_US);
+            self.due_us = Some(link.memory.now_us() + RETRY_PAUSE_US);
         }
         Ok(())
     }
 
-    fn let_go<A, K>(&mut self, link: &Link<'_, A, K>) {
+    fn let_go(&mut self, link: &Link<'_>) {
         if let Some(device) = self.device.take() {
-            link.bus.memory.slots.leave(device);
+            link.memory.slots.leave(device);
         }
     }
 
     /// Tells whether who is there wants a reset now.
-    pub(super) fn wants_attention<A, K: Clock>(&self, link: &Link<'_, A, K>) -> bool {
-        let slots = &link.bus.memory.slots;
-        let may_begin = || super::place_below(link.route.place, self.number).is_none_or(|place| slots.may_begin(place));
+    pub(super) fn wants_attention(&self, link: &Link<'_>) -> bool {
+        let slots = &link.memory.slots;
+        let may_begin = || link.route.place.below(self.number).is_none_or(|place| slots.may_begin(place));
         self.device.is_some_and(|device| slots.has_failed(device))
-            || self.due_us.is_some_and(|due_us| link.bus.has_come(due_us) && may_begin())
+            || self.due_us.is_some_and(|due_us| link.memory.has_come(due_us) && may_begin())
     }
 
     /// Resets who is there.
-    pub(super) async fn attend<'d, A: UsbHostAllocator<'d>, K: Clock>(
-        &mut self,
-        link: &Link<'_, A, K>,
-    ) -> Result<(), Fault> {
+    pub(super) async fn attend(&mut self, link: &Link<'_>) -> Result<(), Fault> {
         if self.device.is_some() {
             self.let_go(link);
-            self.due_us = Some(link.bus.now_us() + RETRY_PAUSE_US);
+            self.due_us = Some(link.memory.now_us() + RETRY_PAUSE_US);
             return Ok(());
         }
         self.due_us = None;
         if self.attempts >= ATTEMPTS {
             return self.give_up(link, Fault::GivenUp).await;
         }
-        let Some(place) = super::place_below(link.route.place, self.number) else {
+        let Some(place) = link.route.place.below(self.number) else {
             return self.give_up(link, Fault::TooDeep).await;
         };
         // Takes the turn at address 0; from here on it has to be begun or let go.
-        let Some(device) = link.bus.memory.slots.reserve(Some(link.slot), place) else {
+        let Some(device) = link.memory.slots.reserve(Some(link.slot), place) else {
             return self.give_up(link, Fault::TooManyDevices).await;
         };
         self.device = Some(device);
@@ -146,30 +140,27 @@ impl Port {
         match self.reset(link).await? {
             Some(speed) => {
                 let route = link.route.below(link.address, self.number, place, speed);
-                link.bus.memory.slots.begin(device, route);
+                link.memory.slots.begin(device, route);
             }
             None => {
                 self.let_go(link);
-                self.due_us = Some(link.bus.now_us() + RETRY_PAUSE_US);
+                self.due_us = Some(link.memory.now_us() + RETRY_PAUSE_US);
             }
         }
         Ok(())
     }
 
     /// Resets the port; returns the device's speed, or `None` if it is not there, or not enabled.
-    async fn reset<'d, A: UsbHostAllocator<'d>, K: Clock>(
-        &self,
-        link: &Link<'_, A, K>,
-    ) -> Result<Option<Speed>, Fault> {
+    async fn reset(&self, link: &Link<'_>) -> Result<Option<Speed>, Fault> {
         self.set(link, feature::RESET).await?;
-        let end_us = link.bus.now_us() + PORT_RESET_TIMEOUT_US;
+        let end_us = link.memory.now_us() + PORT_RESET_TIMEOUT_US;
         let port = loop {
-            link.bus.sleep(PORT_RESET_STEP_US).await;
+            link.memory.sleep(PORT_RESET_STEP_US).await;
             let port = self.status(link).await?;
             if port.has_changed(bit::RESET) {
                 break port;
             }
-            if link.bus.now_us() >= end_us {
+            if link.memory.now_us() >= end_us {
                 return Ok(None);
             }
         };
@@ -180,58 +171,44 @@ impl Port {
     }
 
     /// Leaves who is there alone until it is plugged in again.
-    async fn give_up<'d, A: UsbHostAllocator<'d>, K: Clock>(
-        &mut self,
-        link: &Link<'_, A, K>,
-        fault: Fault,
-    ) -> Result<(), Fault> {
+    async fn give_up(&mut self, link: &Link<'_>, fault: Fault) -> Result<(), Fault> {
         self.attempts = ATTEMPTS;
         self.clear(link, feature::ENABLE).await?;
-        let place = super::place_below(link.route.place, self.number).unwrap_or(link.route.place);
-        link.bus.tell_fault(place, fault).await;
+        let place = link.route.place.below(self.number).unwrap_or(link.route.place);
+        link.memory.tell_fault(place, fault).await;
         Ok(())
     }
 
-    async fn status<'d, A: UsbHostAllocator<'d>, K: Clock>(&self, link: &Link<'_, A, K>) -> Result<Status, Fault> {
+    async fn status(&self, link: &Link<'_>) -> Result<Status, Fault> {
         status(link, self.number).await
     }
 
-    async fn set<'d, A: UsbHostAllocator<'d>, K: Clock>(
-        &self,
-        link: &Link<'_, A, K>,
-        feature: u8,
-    ) -> Result<(), Fault> {
-        link.write(Step::Port, Setup::set_port_feature(feature, self.number), &[]).await
+    fn set<'m>(&self, link: &Link<'m>, feature: u8) -> Transfer<'m> {
+        link.write(Step::Port, Setup::set_port_feature(feature, self.number), &[])
     }
 
-    async fn clear<'d, A: UsbHostAllocator<'d>, K: Clock>(
-        &self,
-        link: &Link<'_, A, K>,
-        feature: u8,
-    ) -> Result<(), Fault> {
-        link.write(Step::Port, Setup::clear_hub_feature(feature, self.number), &[]).await
+    fn clear<'m>(&self, link: &Link<'m>, feature: u8) -> Transfer<'m> {
+        link.write(Step::Port, Setup::clear_hub_feature(feature, self.number), &[])
     }
 }
 
-async fn status<'d, A: UsbHostAllocator<'d>, K: Clock>(link: &Link<'_, A, K>, port: u8) -> Result<Status, Fault> {
-    let mut bytes = [0; 4];
-    let count = link.read(Step::Port, Setup::hub_status(port), &mut bytes).await?;
-    if count < bytes.len() {
-        return Err(Fault::Descriptor { doing: Step::Port });
+async fn status(link: &Link<'_>, port: u8) -> Result<Status, Fault> {
+    let count = link.read(Step::Port, Setup::hub_status(port), 4).await?;
+    match *link.data(count) {
+        [s0, s1, c0, c1] => Ok(Status { status: u16::from_le_bytes([s0, s1]), changes: u16::from_le_bytes([c0, c1]) }),
+        _ => Err(Fault::Descriptor { doing: Step::Port }),
     }
-    let [s0, s1, c0, c1] = bytes;
-    Ok(Status { status: u16::from_le_bytes([s0, s1]), changes: u16::from_le_bytes([c0, c1]) })
 }
 
 /// Asks the hub itself what has changed: its local power (bit 0) or its current (bit 1), and takes note
 /// (USB 2.0 §11.24.2.6).
-pub(super) async fn look_at_hub<'d, A: UsbHostAllocator<'d>, K: Clock>(link: &Link<'_, A, K>) -> Result<(), Fault> {
+pub(super) async fn look_at_hub(link: &Link<'_>) -> Result<(), Fault> {
     let hub = status(link, 0).await?;
     for change in (0..2).filter(|change| hub.has_changed(1 << change)) {
         link.write(Step::Port, Setup::clear_hub_feature(change, 0), &[]).await?;
     }
     if hub.changes & hub.status & 1 << 1 != 0 {
-        link.bus.tell_fault(link.route.place, Fault::OverCurrent).await;
+        link.memory.tell_fault(link.route.place, Fault::OverCurrent).await;
     }
     Ok(())
 }
