@@ -7,19 +7,19 @@ use core::task::{Context, Poll};
 use heapless::Deque;
 
 use crate::mailbox::Mailbox;
-use crate::root::RootPort;
 use crate::slots::{DEVICES_MAXIMUM, SlotIndex, Slots};
 use crate::{Config, Event, Fault, Place};
 
 /// Events that can wait.
 const QUEUE_LENGTH: usize = 16;
+/// Events that may come of one occurrence.
+const EVENTS_AT_ONCE: usize = 2;
 
 /// All that the bus keeps, but for its future. Goes where the bus lives: a stack that stays, or a static.
 #[derive(Debug)]
 pub struct Memory {
     pub(crate) config: Config,
     pub(crate) slots: Slots,
-    pub(crate) root: RootPort,
     pub(crate) frozen: Cell<bool>,
     mailboxes: [Mailbox; DEVICES_MAXIMUM],
     events: RefCell<Deque<Event, QUEUE_LENGTH>>,
@@ -36,7 +36,6 @@ impl Memory {
         Self {
             config,
             slots: Slots::new(),
-            root: RootPort::new(),
             frozen: Cell::new(false),
             mailboxes: [const { Mailbox::new() }; DEVICES_MAXIMUM],
             events: RefCell::new(Deque::new()),
@@ -63,6 +62,12 @@ impl Memory {
         &self.mailboxes[slot.index()]
     }
 
+    /// Tells whether anything has changed for somebody since it was asked last.
+    pub(crate) fn take_stirred(&self) -> bool {
+        let mailboxes = self.mailboxes.iter().fold(false, |stirred, mailbox| stirred | mailbox.take_stirred());
+        self.slots.take_stirred() | mailboxes
+    }
+
     /// Tells whether a time has come; else notes that somebody waits for it.
     #[inline(never)]
     pub(crate) fn has_come(&self, time_us: u64) -> bool {
@@ -79,14 +84,21 @@ impl Memory {
         Sleep { memory: self, until_us: self.now_us() + duration_us }
     }
 
-    /// Tells an event, as soon as there is room.
-    pub(crate) fn tell(&self, event: Event) -> Tell<'_> {
-        Tell { memory: self, event: Some(event) }
+    /// Tells whether there is room for what may come of one occurrence.
+    pub(crate) fn has_room(&self) -> bool {
+        self.events.borrow().len() <= QUEUE_LENGTH - EVENTS_AT_ONCE
     }
 
-    /// Tells a fault.
-    pub(crate) fn tell_fault(&self, device: Place, fault: Fault) -> Tell<'_> {
-        self.tell(Event::Fault { device, fault })
+    /// Tells an event, after [`has_room`](Self::has_room).
+    #[inline(never)]
+    pub(crate) fn tell(&self, event: Event) {
+        let full = self.events.borrow_mut().push_back(event).is_err();
+        debug_assert!(!full, "an event without room");
+    }
+
+    /// Tells a fault, likewise.
+    pub(crate) fn tell_fault(&self, device: Place, fault: Fault) {
+        self.tell(Event::Fault { device, fault });
     }
 
     /// Takes the oldest event.
@@ -106,24 +118,5 @@ impl Future for Sleep<'_> {
 
     fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
         if self.memory.has_come(self.until_us) { Poll::Ready(()) } else { Poll::Pending }
-    }
-}
-
-/// An event on its way.
-pub(crate) struct Tell<'m> {
-    memory: &'m Memory,
-    event: Option<Event>,
-}
-
-impl Future for Tell<'_> {
-    type Output = ();
-
-    #[inline(never)]
-    fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
-        let memory = self.memory;
-        if let Some(event) = self.event.take() {
-            self.event = memory.events.borrow_mut().push_back(event).err();
-        }
-        if self.event.is_none() { Poll::Ready(()) } else { Poll::Pending }
     }
 }

@@ -1,7 +1,6 @@
 //! The root port.
 
 use core::cell::Cell;
-use core::convert::Infallible;
 use core::future::poll_fn;
 use core::task::Poll;
 
@@ -14,89 +13,101 @@ use crate::timing::{ATTEMPTS, RETRY_PAUSE_US, ROOT_RETRY_PAUSE_US};
 use crate::{Fault, Memory, Place};
 
 /// What goes between the root port's logic and the controller.
-#[derive(Debug)]
-pub(crate) struct RootPort {
+#[derive(Debug, Default)]
+pub(crate) struct Root {
     event: Cell<Option<DeviceEvent>>,
-    reset: Cell<Reset>,
+    reset_wanted: Cell<bool>,
+    state: Cell<State>,
+    /// The controller has told something.
+    stirred: Cell<bool>,
 }
 
-/// A reset of the root port's device.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Reset {
-    No,
-    Wanted,
-    Done,
+/// What is at the root port.
+#[derive(Debug, Clone, Copy, Default)]
+enum State {
+    #[default]
+    Empty,
+    /// A device that was reset waits for its slot.
+    Reset(Course),
+    Busy(SlotIndex, Course),
+    /// A device that failed is to be reset at a time.
+    Failed {
+        retry_us: u64,
+        course: Course,
+    },
+    /// It is being reset.
+    Resetting(Course),
 }
 
-impl RootPort {
-    pub(crate) const fn new() -> Self {
-        Self { event: Cell::new(None), reset: Cell::new(Reset::No) }
+/// What is remembered of the root port's device from one attempt to the next.
+#[derive(Debug, Clone, Copy)]
+struct Course {
+    speed: Speed,
+    attempts: u8,
+}
+
+impl Root {
+    /// Hands an event over, and waits until it was taken.
+    pub(crate) async fn put_event(&self, event: DeviceEvent) {
+        self.event.set(Some(event));
+        self.stirred.set(true);
+        poll_fn(|_| if self.event.get().is_none() { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 
     pub(crate) async fn reset_wanted(&self) {
-        poll_fn(|_| if self.reset.get() == Reset::Wanted { Poll::Ready(()) } else { Poll::Pending }).await;
+        poll_fn(|_| if self.reset_wanted.take() { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 
     pub(crate) fn reset_done(&self) {
-        self.reset.set(Reset::Done);
+        if let State::Resetting(course) = self.state.get() {
+            self.state.set(State::Reset(course));
+        }
+        self.stirred.set(true);
     }
 
-    pub(crate) fn put_event(&self, event: DeviceEvent) {
-        self.event.set(Some(event));
+    /// Tells whether the controller has told something since it was asked last.
+    pub(crate) fn take_stirred(&self) -> bool {
+        self.stirred.take()
     }
 
-    pub(crate) async fn event_taken(&self) {
-        poll_fn(|_| if self.event.get().is_none() { Poll::Ready(()) } else { Poll::Pending }).await;
-    }
-}
-
-/// Serves the root port.
-pub(crate) async fn serve(memory: &Memory) -> Infallible {
-    let (root, slots) = (&memory.root, &memory.slots);
-    let mut device: Option<SlotIndex> = None;
-    let (mut speed, mut attempts) = (Speed::Full, 0);
-    // When the device that failed is reset.
-    let mut retry_us: Option<u64> = None;
-    loop {
-        let event = poll_fn(|_| {
-            let event = root.event.take();
-            if event.is_some() {
-                return Poll::Ready(event);
+    /// Goes on a step if there is one to go.
+    pub(crate) fn poll(&self, memory: &Memory) {
+        if !memory.has_room() {
+            return;
+        }
+        if let Some(event) = self.event.take() {
+            if let State::Busy(device, _) = self.state.get() {
+                memory.slots.leave(device);
             }
-            let failed = device.is_some_and(|device| slots.has_failed(device));
-            let due = retry_us.is_some_and(|retry_us| memory.has_come(retry_us));
-            if failed || due || root.reset.get() == Reset::Done { Poll::Ready(None) } else { Poll::Pending }
-        })
-        .await;
-        if let Some(device) = device.take() {
-            slots.leave(device);
-            if event.is_none() {
-                attempts = (attempts + 1).min(ATTEMPTS);
+            self.reset_wanted.set(false);
+            self.state.set(match event {
+                DeviceEvent::Connected(speed) => State::Reset(Course { speed, attempts: 0 }),
+                _ => State::Empty,
+            });
+            if event == DeviceEvent::Overcurrent {
+                memory.tell_fault(Place::ROOT, Fault::OverCurrent);
+            }
+        }
+        match self.state.get() {
+            State::Reset(course) => {
+                if let Ok(device) = memory.slots.reserve(None, Place::ROOT) {
+                    memory.slots.begin(device, Route::root(course.speed));
+                    self.state.set(State::Busy(device, course));
+                }
+            }
+            State::Busy(device, Course { speed, attempts }) if memory.slots.has_failed(device) => {
+                memory.slots.leave(device);
+                let attempts = (attempts + 1).min(ATTEMPTS);
                 // A device on the board cannot be plugged in again: it is never given up.
                 let pause_us = if attempts < ATTEMPTS { RETRY_PAUSE_US } else { ROOT_RETRY_PAUSE_US };
-                retry_us = Some(memory.now_us() + pause_us);
-                continue;
+                let course = Course { speed, attempts };
+                self.state.set(State::Failed { retry_us: memory.now_us() + pause_us, course });
             }
+            State::Failed { retry_us, course } if memory.has_come(retry_us) => {
+                self.reset_wanted.set(true);
+                self.state.set(State::Resetting(course));
+            }
+            _ => {}
         }
-        let was_reset = root.reset.replace(Reset::No) == Reset::Done;
-        let was_due = retry_us.take().is_some();
-        match event {
-            Some(DeviceEvent::Connected(now)) => (speed, attempts) = (now, 0),
-            Some(DeviceEvent::Overcurrent) => {
-                memory.tell_fault(Place::ROOT, Fault::OverCurrent).await;
-                continue;
-            }
-            None if was_due => {
-                root.reset.set(Reset::Wanted);
-                continue;
-            }
-            None if was_reset => {}
-            Some(_) | None => continue,
-        }
-        // As soon as the one before it has been let go.
-        let reserve = || if slots.may_begin(Place::ROOT) { slots.reserve(None, Place::ROOT) } else { None };
-        let begun = poll_fn(|_| reserve().map_or(Poll::Pending, Poll::Ready)).await;
-        slots.begin(begun, Route::root(speed));
-        device = Some(begun);
     }
 }

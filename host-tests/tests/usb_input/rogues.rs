@@ -28,7 +28,7 @@ impl Bench {
             }
         }
         let next = [self.usb.next_wait_us(), self.host.take_wait_us()].into_iter().flatten().min();
-        self.now.set(next.unwrap_or(end).clamp(self.now.get() + 100, end.max(self.now.get() + 100)));
+        self.now.set(next.unwrap_or(end).clamp(self.now.get() + 1, end.max(self.now.get() + 1)));
     }
 
     /// Jumps until something is so, or the time is over; tells whether it is so.
