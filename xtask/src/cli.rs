@@ -1,16 +1,18 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
+mod board;
 mod values;
 
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands;
 use crate::qemu::UsbIds;
 use values::{parse_rotation, parse_units, parse_usb_ids};
 
+pub use board::Board;
 pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
@@ -93,42 +95,6 @@ pub enum Task {
     Area(AreaArguments),
     /// Writes the files that are generated and committed
     Generate(GenerateArguments),
-}
-
-/// A board the firmware runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Board {
-    /// ARM Versatile Express with a Cortex-A9, as QEMU models it
-    VexpressA9,
-    /// Raspberry Pi 2 with the DE1-SoC's USB controller, as QEMU models it
-    Raspi2b,
-    /// Terasic DE1-SoC: builds, but nothing here can run it yet
-    De1Soc,
-}
-
-impl Board {
-    /// All boards.
-    pub const ALL: [Self; 3] = [Self::VexpressA9, Self::Raspi2b, Self::De1Soc];
-
-    /// Returns whether QEMU has the board.
-    pub const fn runs_in_qemu(self) -> bool {
-        matches!(self, Self::VexpressA9 | Self::Raspi2b)
-    }
-
-    /// Returns the board's name: the firmware's feature and binary have the same.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::VexpressA9 => "vexpress-a9",
-            Self::Raspi2b => "raspi2b",
-            Self::De1Soc => "de1-soc",
-        }
-    }
-}
-
-impl fmt::Display for Board {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
 }
 
 /// Flags of `demo`.
