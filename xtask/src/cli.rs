@@ -77,27 +77,30 @@ pub enum Task {
 }
 
 /// A board the firmware runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Board {
     /// ARM Versatile Express with a Cortex-A9, as QEMU models it
     VexpressA9,
+    /// Raspberry Pi 2 with the DE1-SoC's USB controller, as QEMU models it
+    Raspi2b,
     /// Terasic DE1-SoC: builds, but nothing here can run it yet
     De1Soc,
 }
 
 impl Board {
     /// All boards.
-    pub const ALL: [Self; 2] = [Self::VexpressA9, Self::De1Soc];
+    pub const ALL: [Self; 3] = [Self::VexpressA9, Self::Raspi2b, Self::De1Soc];
 
     /// Returns whether QEMU has the board.
     pub const fn runs_in_qemu(self) -> bool {
-        matches!(self, Self::VexpressA9)
+        matches!(self, Self::VexpressA9 | Self::Raspi2b)
     }
 
     /// Returns the board's name: the firmware's feature and binary have the same.
     pub const fn name(self) -> &'static str {
         match self {
             Self::VexpressA9 => "vexpress-a9",
+            Self::Raspi2b => "raspi2b",
             Self::De1Soc => "de1-soc",
         }
     }
@@ -338,6 +341,7 @@ mod tests {
         for line in [
             "demo",
             "demo --board vexpress-a9",
+            "demo --board raspi2b",
             "test",
             "replay w -o o.png --depth d",
             "decode w",

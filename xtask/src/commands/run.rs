@@ -79,7 +79,7 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let bootable = Bootable::prepare(arguments.board, &progress)?;
     let folder = target_folder().join("run");
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let mut options = QemuOptions::new(qemu, &bootable.elf);
+    let mut options = QemuOptions::new(qemu, bootable.board, &bootable.elf);
     options.display = display;
     options.console_file = Some(folder.join("console.txt"));
     options.console_on_stdout = true;
