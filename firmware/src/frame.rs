@@ -2,10 +2,9 @@
 
 use core::ops::ControlFlow;
 
-use fpga_regs::packet::FlatTriangle;
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
-use geometry::{FaceLight, ScreenTransform, ScreenVertex, Sink, Transformed};
+use geometry::{Drawn, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed};
 
 use crate::link::FrameReport;
 use crate::scene::{MAX_VERTICES, Meshes, Scene};
@@ -59,7 +58,7 @@ pub fn draw_frame<P: Port, W: Wait>(
         return Ok(FrameReport::default());
     };
     let vertices_done = ticks();
-    let light = FaceLight::new(&view.light, &view.model);
+    let light = ObjectLight::new(&view.light, &view.model);
     let mut writer = PacketWriter::new(&mut memory.words, renderer, &mut ticks);
     let statistics = transformed.draw(&light, scene.culling(), &mut writer);
     let faces_done = (writer.ticks)();
@@ -125,15 +124,15 @@ impl<'a, P: Port, W: Wait, T: FnMut() -> u64> PacketWriter<'a, P, W, T> {
 
 impl<P: Port, W: Wait, T: FnMut() -> u64> Sink for PacketWriter<'_, P, W, T> {
     #[inline(always)]
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
-        if self.used > BUFFER_WORDS - FlatTriangle::WORDS && self.make_room().is_break() {
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
+        if self.used > BUFFER_WORDS - N && self.make_room().is_break() {
             return None;
         }
         self.buffer[self.used..].first_chunk_mut()
     }
 
     #[inline(always)]
-    fn take(&mut self, _: [&ScreenVertex; 3], _: [u8; 3]) {
-        self.used += FlatTriangle::WORDS;
+    fn take<const N: usize>(&mut self, _: Drawn<'_>) {
+        self.used += N;
     }
 }

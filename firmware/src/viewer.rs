@@ -143,6 +143,7 @@ fn light(scene: Scene, view: &Matrix) -> DirectionalLight {
         Scene::Plate | Scene::Torus => DirectionalLight {
             // A unit vector.
             direction: [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")],
+            colour: [255; 3],
             diffuse: I16F16::lit("0.75"),
             ambient: I16F16::lit("0.25"),
         },
@@ -150,7 +151,7 @@ fn light(scene: Scene, view: &Matrix) -> DirectionalLight {
             // The view's third row: backwards, in world space.
             let [x, y, z, _] = view.rows[2];
             let direction = [x, y, z].map(I2F30::saturating_from_num);
-            DirectionalLight { direction, diffuse: I16F16::lit("0.7"), ambient: I16F16::lit("0.4") }
+            DirectionalLight { direction, colour: [255; 3], diffuse: I16F16::lit("0.7"), ambient: I16F16::lit("0.4") }
         }
     }
 }

@@ -4,6 +4,7 @@
 //! is an error, so a model that is wrong shows.
 
 use std::fmt;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use usb_model::wire::{Answer, Device, Handshake, Speed, Target, Toggle};
@@ -14,6 +15,10 @@ use crate::descriptors::{self, Endpoint};
 const ADDRESS: u8 = 1;
 /// Longest time that a control transfer may be put off (USB 2.0 §9.2.6.4: 500 ms a data stage).
 const NAK_LIMIT: Duration = Duration::from_millis(500);
+/// How long a device is left alone after a reset (USB 2.0 §7.1.7.5: 10 ms), and a bit for the clock.
+const RESET_RECOVERY: Duration = Duration::from_millis(11);
+/// How long it is after SET_ADDRESS (§9.2.6.3: 2 ms), and a bit for the clock.
+const ADDRESS_RECOVERY: Duration = Duration::from_millis(3);
 /// How long a device that said NAK is left alone.
 const NAK_PAUSE: Duration = Duration::from_micros(250);
 /// Packet size of endpoint 0 before the descriptor is known: the least that every speed has.
@@ -126,11 +131,13 @@ impl Host {
         self.address = 0;
         self.packet_size = FIRST_PACKET_SIZE;
         self.reset_toggles();
+        thread::sleep(RESET_RECOVERY);
         let start = self.descriptor(DEVICE_DESCRIPTOR, 8)?;
         self.packet_size = start.get(7).copied().unwrap_or(0).max(FIRST_PACKET_SIZE);
         let address = Request { request_type: 0, request: SET_ADDRESS, value: ADDRESS.into(), index: 0, length: 0 };
         self.control(address, &[])?;
         self.address = ADDRESS;
+        thread::sleep(ADDRESS_RECOVERY);
         Ok(())
     }
 
@@ -239,7 +246,7 @@ impl Host {
         loop {
             let now = self.now();
             match self.device.data_in(now, target) {
-                Answer::Nak if Instant::now() < limit => std::thread::sleep(NAK_PAUSE),
+                Answer::Nak if Instant::now() < limit => thread::sleep(NAK_PAUSE),
                 Answer::Nak => return Err(TransferError::Timeout),
                 Answer::Stall => return Err(TransferError::Stall),
                 Answer::Silent => return Err(TransferError::Silent),
@@ -263,7 +270,7 @@ impl Host {
             let now = self.now();
             match transaction(&mut *self.device, now) {
                 Handshake::Ack | Handshake::Nyet => return Ok(()),
-                Handshake::Nak if Instant::now() < limit => std::thread::sleep(NAK_PAUSE),
+                Handshake::Nak if Instant::now() < limit => thread::sleep(NAK_PAUSE),
                 Handshake::Nak => return Err(TransferError::Timeout),
                 Handshake::Stall => return Err(TransferError::Stall),
                 Handshake::Silent => return Err(TransferError::Silent),

@@ -1,15 +1,21 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
+mod values;
+
 use std::fmt::{self, Write as _};
 use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use crate::commands;
+use crate::qemu::UsbIds;
+use values::{parse_rotation, parse_units, parse_usb_ids};
+
+pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
-    ("See it work", &["demo", "run"]),
+    ("See it work", &["demo", "run", "pad"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
     ("Check and measure", &["test", "bench"]),
     ("Keep generated files fresh", &["generate"]),
@@ -23,7 +29,7 @@ Examples:
   cargo xtask demo --help                           all flags of one command
 
 Results go to target/<command>/ unless -o or --output names another place.
-What is missing (Rust target, QEMU) is installed where that needs no question;
+What is missing (Rust target, QEMU, Verilator) is installed where that needs no question;
 otherwise the command to type is printed.";
 
 /// Runs every task of the Halfspace project.
@@ -50,6 +56,11 @@ pub enum Task {
     /// With --headless the recorded session of the demo moves the scenes, from its first frame
     /// on, and again from there when it is over; every run gives the same frames.
     Run(RunArguments),
+    /// Plays a session as a DualShock 3 at a socket, for run --pad
+    ///
+    /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
+    /// is over, until Ctrl-C.
+    Pad(PadArguments),
     /// Draws an OBJ model to a PNG file
     ///
     /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
@@ -61,6 +72,9 @@ pub enum Task {
     ///
     /// Shows the front buffer or, if the stream has no swap, the back buffer. Bad packets are
     /// skipped with a warning. A stream that ends inside a packet is an error: nothing is written.
+    /// With --rtl the FPGA's SystemVerilog draws, clock by clock, in Verilator: what comes out is
+    /// compared with the software model, and what each frame cost is shown. A word goes in each
+    /// clock; waiting for the vertical blank is cut short and not counted.
     Replay(ReplayArguments),
     /// Prints a file of packet words as text
     ///
@@ -69,8 +83,8 @@ pub enum Task {
     Decode(DecodeArguments),
     /// Measures the cost per vertex, triangle and pixel
     ///
-    /// Counts the Cortex-A9's instructions in QEMU, and times geometry and software model on this
-    /// computer, as an optimised build: median of several runs.
+    /// Counts the Cortex-A9's instructions in QEMU and the FPGA's clocks in Verilator, and times
+    /// geometry and software model on this computer, as an optimised build: median of several runs.
     Bench(BenchArguments),
     /// Writes the files that are generated and committed
     Generate(GenerateArguments),
@@ -118,11 +132,18 @@ pub struct DemoArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Writes the packet words of all frames as well, for replay and decode
+    #[arg(long, value_name = "FILE")]
+    pub dump: Option<PathBuf>,
 }
 
-/// Flags of `test`: none.
+/// Flags of `test`.
 #[derive(Debug, Args)]
-pub struct TestArguments {}
+pub struct TestArguments {
+    /// Runs only the steps with TEXT in their name (`usb`, say), and the builds that they need
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+}
 
 /// Flags of `run`.
 #[derive(Debug, Args)]
@@ -136,9 +157,27 @@ pub struct RunArguments {
     /// Number of frames to draw (with --headless)
     #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: Option<u32>,
+    /// Plugs in what a usbredir server at this Unix socket has: `cargo xtask pad SOCKET`, say
+    #[arg(long, value_name = "SOCKET", conflicts_with = "headless")]
+    pub pad: Option<PathBuf>,
+    /// Hands a USB device of this computer to the board, by its ids as lsusb shows them; see the
+    /// README on permissions
+    #[arg(long, value_name = "VENDOR:PRODUCT", conflicts_with = "headless", value_parser = parse_usb_ids)]
+    pub usb_host: Option<UsbIds>,
     /// Folder for the frames (with --headless)
     #[arg(long, value_name = "DIR", requires = "headless")]
     pub output: Option<PathBuf>,
+}
+
+/// Flags of `pad`.
+#[derive(Debug, Args)]
+pub struct PadArguments {
+    /// Unix socket to listen at; it is made
+    #[arg(value_name = "SOCKET")]
+    pub socket: PathBuf,
+    /// Session to play instead of the demo's
+    #[arg(long, value_name = "FILE")]
+    pub session: Option<PathBuf>,
 }
 
 /// Flags of `render`.
@@ -171,13 +210,6 @@ pub struct RenderArguments {
     pub depth: Option<PathBuf>,
 }
 
-/// Angles about the x, y and z axis, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rotation {
-    /// Degrees about the x, y and z axis, each finite.
-    pub degrees: [f64; 3],
-}
-
 /// Flags of `replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArguments {
@@ -190,6 +222,24 @@ pub struct ReplayArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
+    /// Draws with the FPGA's design in Verilator instead of the software model
+    #[arg(long)]
+    pub rtl: bool,
+    /// Pixel units that the design is built with
+    #[arg(long, value_name = "N", requires = "rtl", default_value_t = 8, value_parser = parse_units)]
+    pub units: u32,
+    /// Takes the picture, 640×480, from the VGA pins
+    #[arg(long, requires = "rtl")]
+    pub pins: bool,
+    /// Records every signal of a few clocks in an FST file, for GTKWave or Surfer
+    #[arg(long, value_name = "FILE", requires = "rtl")]
+    pub wave: Option<PathBuf>,
+    /// First clock of --wave: 20 ns each, counted as in the table
+    #[arg(long, value_name = "CLOCK", requires = "wave", default_value_t = 0)]
+    pub from: u64,
+    /// Number of clocks of --wave, each about 300 bytes in the file
+    #[arg(long, value_name = "N", requires = "wave", default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub clocks: u64,
 }
 
 /// Flags of `decode`.
@@ -234,6 +284,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Demo(arguments) => commands::demo::run(arguments),
         Task::Test(arguments) => commands::test::run(arguments),
         Task::Run(arguments) => commands::run::run(arguments),
+        Task::Pad(arguments) => commands::pad::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
@@ -262,23 +313,6 @@ fn grouped_commands(command: &Command) -> String {
         text.push('\n');
     }
     text
-}
-
-/// Reads `X,Y,Z` as three finite angles in degrees.
-fn parse_rotation(text: &str) -> Result<Rotation, String> {
-    let remedy = "give three numbers of degrees with commas between, like 20,-30,0";
-    let parts: Vec<&str> = text.split(',').collect();
-    let [x, y, z] = parts.as_slice() else {
-        return Err(format!("{} numbers instead of 3: {remedy}", parts.len()));
-    };
-    let mut degrees = [0.0; 3];
-    for (angle, part) in degrees.iter_mut().zip([x, y, z]) {
-        *angle = match part.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => number,
-            _ => return Err(format!("`{part}` is no angle: {remedy}")),
-        };
-    }
-    Ok(Rotation { degrees })
 }
 
 #[cfg(test)]
@@ -320,14 +354,6 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_rotation_names_the_remedy() {
-        for wrong in ["1,2", "1,2,x", "1,2,inf", "", "1,2,3,4"] {
-            let message = parse_rotation(wrong).expect_err(wrong);
-            assert!(message.contains("like 20,-30,0"), "{message}");
-        }
-    }
-
-    #[test]
     fn headless_wants_frames_and_a_folder() {
         assert!(parse("run").is_ok());
         assert!(parse("run --headless --frames 3 --output d").is_ok());
@@ -337,12 +363,34 @@ mod tests {
     }
 
     #[test]
+    fn a_wave_wants_the_design_and_a_number_of_units_one_that_there_is() {
+        let Task::Replay(arguments) = parse("replay w -o o.png --rtl --wave f --from 7").expect("valid").command else {
+            panic!("replay is replay");
+        };
+        assert_eq!((arguments.units, arguments.from, arguments.clocks), (8, 7, 20_000));
+        assert!(parse("replay w -o o.png").is_ok());
+        assert!(parse("replay w -o o.png --rtl --units 4 --pins --wave f --clocks 9").is_ok());
+        for wrong in
+            ["--wave f", "--units 8", "--pins", "--rtl --from 1", "--rtl --clocks 5", "--rtl --wave f --clocks 0"]
+        {
+            assert!(parse(&format!("replay w -o o.png {wrong}")).is_err(), "{wrong}");
+        }
+        let message = parse("replay w -o o.png --rtl --units 3").expect_err("no such build").to_string();
+        assert!(message.contains("1, 2, 4 or 8 pixel units"), "{message}");
+    }
+
+    #[test]
     fn the_other_commands_parse() {
         for line in [
             "demo",
             "demo --board vexpress-a9",
             "demo --board raspi2b",
+            "run --board raspi2b --pad s",
+            "run --board raspi2b --usb-host 054c:0268",
+            "pad s --session f",
+            "demo --dump w",
             "test",
+            "test --only usb",
             "replay w -o o.png --depth d",
             "decode w",
             "bench --json",

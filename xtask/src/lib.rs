@@ -4,16 +4,18 @@
 //! | --- | --- |
 //! | [`cli`] | the commands and their flags |
 //! | [`commands`] | one file per command |
-//! | [`setup`] | makes this machine able: Rust target, QEMU, other tools |
-//! | [`firmware_build`] | builds a board's ELF file |
+//! | [`setup`] | makes this machine able: Rust target, QEMU, Verilator |
+//! | [`firmware_build`] | builds a board's ELF file; [`cargo_build`] runs cargo for it |
 //! | [`boot`] | from nothing to a firmware that runs |
 //! | [`qemu`] | one running QEMU with its console, link and log; [`qmp`] is its remote control |
 //! | [`machine`] | QEMU, or this process, as something that is stepped frame by frame |
 //! | [`session`] | what a controller said, frame by frame, and playing it on a machine |
+//! | [`fake_pad`] | a DualShock 3 for QEMU that says what it is told to |
 //! | [`demo`] | the demonstration session on a machine; [`report`] what it took, [`golden`] what it must show |
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
+//! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
@@ -30,11 +32,13 @@
 compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS or in WSL");
 
 pub mod boot;
+pub mod cargo_build;
 pub mod checks;
 pub mod cli;
 pub mod commands;
 pub mod console;
 pub mod demo;
+pub mod fake_pad;
 pub mod firmware_build;
 pub mod generated;
 pub mod golden;
@@ -55,6 +59,7 @@ pub mod setup;
 pub mod software_fpga;
 pub mod stream;
 pub mod table;
+pub mod verilated;
 
 #[cfg(test)]
 mod test_elf;

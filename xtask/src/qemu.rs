@@ -27,7 +27,7 @@ use serde_json::json;
 
 pub use options::{Display, QemuOptions};
 use process::Process;
-pub use usb_device::UsbDevice;
+pub use usb_device::{UsbDevice, UsbIds};
 
 use crate::console::Console;
 use crate::paths::TemporaryFolder;

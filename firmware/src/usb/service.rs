@@ -53,9 +53,13 @@ unsafe impl Send for Service {}
 
 impl Service {
     /// Puts driver and bus into their room; `None` when that is taken already.
-    pub fn new<T: Now + Send + 'static>(room: &'static Room<T>, core: Dwc2Core<T>, clock: T) -> Option<Self> {
-        let driver: &'static Dwc2<'static> =
-            room.driver.try_init(Dwc2::new(room.core.try_init(core)?, Config::default()))?;
+    pub fn new<T: Now + Send + 'static>(
+        room: &'static Room<T>,
+        core: Dwc2Core<T>,
+        config: Config,
+        clock: T,
+    ) -> Option<Self> {
+        let driver: &'static Dwc2<'static> = room.driver.try_init(Dwc2::new(room.core.try_init(core)?, config))?;
         let memory: &'static Memory = room.memory.try_init(Memory::new(usb_input::Config::default()))?;
         let future = room.future.put(usb_input::run(driver.controller(), BusClock(clock), memory))?;
         Some(Self { driver, input: UsbInput::new(Pin::static_mut(future), memory) })

@@ -47,6 +47,9 @@ pub struct QemuOptions {
     /// Makes an instruction take 2^shift ns of the machine's time, and so every run the same;
     /// without it the machine's time is the wall clock's.
     pub icount_shift: Option<u8>,
+    /// With `icount_shift`: what the machine sleeps passes at once, so that its time has nothing to do
+    /// with the wall clock.
+    pub skips_sleep: bool,
     /// Lets the firmware end QEMU with a status, and print, by semihosting.
     pub semihosting: bool,
     /// File that gets the console's lines as well.
@@ -65,6 +68,7 @@ impl QemuOptions {
             usb: Vec::new(),
             display: Display::None,
             icount_shift: None,
+            skips_sleep: false,
             semihosting: true,
             console_file: None,
             console_on_stdout: false,
@@ -101,7 +105,7 @@ impl QemuOptions {
         }
         if let Some(shift) = self.icount_shift {
             push("-icount");
-            push(&format!("shift={shift}"));
+            push(&format!("shift={shift}{}", if self.skips_sleep { ",sleep=off" } else { "" }));
         }
         if self.semihosting {
             push("-semihosting-config");
@@ -149,6 +153,7 @@ pub(super) fn comma_doubled(path: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::UsbIds;
     use super::*;
 
     #[test]
@@ -172,6 +177,8 @@ mod tests {
         let line = |board| {
             let mut options = QemuOptions::new("qemu", board, "x.elf");
             options.usb = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1"), UsbDevice::served("/t/pad", "1.2")];
+            let ids = UsbIds { vendor: 0x054C, product: 0x0268 };
+            options.usb.push(UsbDevice::of_this_computer(ids, "1.3"));
             let words = options.arguments(Path::new("/t"));
             words.iter().map(|word| word.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
         };
@@ -189,5 +196,6 @@ mod tests {
         let served = "-chardev socket,id=server-usb1.2,path=/t/pad,reconnect=1 \
                       -device usb-redir,id=usb1.2,port=1.2,chardev=server-usb1.2 ";
         assert!(raspi.contains(served), "{raspi}");
+        assert!(raspi.contains("-device usb-host,id=usb1.3,port=1.3,vendorid=0x054c,productid=0x0268 "), "{raspi}");
     }
 }

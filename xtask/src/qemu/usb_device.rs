@@ -16,6 +16,18 @@ enum Kind {
     /// What a usbredir server at a Unix socket has. QEMU calls again, once a second, while nobody
     /// answers there.
     Served(PathBuf),
+    /// A device of this computer's own, whenever one of these ids is plugged in; the computer's own
+    /// driver loses it.
+    OfThisComputer(UsbIds),
+}
+
+/// A device's ids, idVendor and idProduct.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UsbIds {
+    /// idVendor.
+    pub vendor: u16,
+    /// idProduct.
+    pub product: u16,
 }
 
 /// A device and the port that it hangs on: `1` is the machine's root port, `1.3` the third port of
@@ -42,6 +54,11 @@ impl UsbDevice {
         Self { kind: Kind::Served(socket.as_ref().into()), port: port.into() }
     }
 
+    /// Returns this computer's own device of these ids.
+    pub fn of_this_computer(ids: UsbIds, port: &str) -> Self {
+        Self { kind: Kind::OfThisComputer(ids), port: port.into() }
+    }
+
     /// Returns QEMU's name for the device, by which it is taken out.
     pub(super) fn id(&self) -> String {
         format!("usb{}", self.port)
@@ -52,6 +69,7 @@ impl UsbDevice {
             Kind::Hub => "usb-hub",
             Kind::Keyboard => "usb-kbd",
             Kind::Served(_) => "usb-redir",
+            Kind::OfThisComputer(_) => "usb-host",
         }
     }
 
@@ -70,15 +88,18 @@ impl UsbDevice {
                 "-device".into(),
                 format!("{device},chardev={}", self.server()),
             ],
+            Kind::OfThisComputer(UsbIds { vendor, product }) => {
+                vec!["-device".into(), format!("{device},vendorid={vendor:#06x},productid={product:#06x}")]
+            }
         }
     }
 
     /// Returns the arguments of QMP's `device_add`.
     ///
     /// # Panics
-    /// For what a server has: its socket belongs to the start.
+    /// For what is not QEMU's own: its source belongs to the start.
     pub(super) fn plug(&self) -> Value {
-        assert!(!matches!(self.kind, Kind::Served(_)), "a server plugs its device in by answering QEMU's call");
+        assert!(matches!(self.kind, Kind::Hub | Kind::Keyboard), "{self:?} is plugged in at its source");
         json!({ "driver": self.driver(), "id": self.id(), "port": self.port })
     }
 }
