@@ -45,6 +45,9 @@ impl VertexLook {
 pub struct LitColour(u32);
 
 impl LitColour {
+    /// Black.
+    pub const BLACK: Self = Self(0);
+
     /// Returns red, green and blue.
     #[inline(always)]
     pub const fn to_rgb888(self) -> [u8; 3] {
@@ -75,24 +78,48 @@ pub(crate) fn light_vertices(looks: &[VertexLook], light: &ObjectLight, lit: &mu
 }
 
 /// Works out looks from the faces: at each vertex the mean of the normals and of the colours of
-/// the faces around it. Returns the looks used, or `None` if the buffer is too small.
+/// the faces around it. `counts` is scratch; both buffers hold one for each vertex. Returns the
+/// looks, or `None` if a buffer is too small.
 ///
-/// A vertex that no face has, or whose normals cancel out, takes no directional light.
-pub fn looks_of_faces<'a>(mesh: &Mesh<'_>, looks: &'a mut [VertexLook]) -> Option<&'a [VertexLook]> {
-    let looks = looks.get_mut(..mesh.positions().len())?;
-    for (index, look) in looks.iter_mut().enumerate() {
-        let (mut normal, mut colour, mut count) = ([0i32; 3], [0u32; 3], 0);
-        for face in mesh.faces().iter().filter(|face| face.corners.contains(&(index as u32))) {
-            normal.iter_mut().zip(face.normal).for_each(|(sum, part)| *sum += i32::from(part));
-            colour.iter_mut().zip(face.colour).for_each(|(sum, part)| *sum += u32::from(part));
-            count += 1;
+/// A vertex that no face has, or whose normals cancel out, takes no directional light. Of a vertex
+/// with more than 16 faces the normal may be off, with more than 257 the colour.
+pub fn looks_of_faces<'a>(
+    mesh: &Mesh<'_>,
+    looks: &'a mut [VertexLook],
+    counts: &mut [u16],
+) -> Option<&'a [VertexLook]> {
+    /// A sixteenth of each normal, so that sixteen fit.
+    const SHARE_BITS: u32 = 4;
+    let vertices = mesh.positions().len();
+    let (looks, counts) = (looks.get_mut(..vertices)?, counts.get_mut(..vertices)?);
+    looks.fill(VertexLook::default());
+    counts.fill(0);
+    for face in mesh.faces() {
+        for corner in face.corners.map(|corner| corner as usize) {
+            looks[corner].add(face.normal.map(|part| part >> SHARE_BITS), face.colour);
+            counts[corner] = counts[corner].saturating_add(1);
         }
+    }
+    for (look, count) in looks.iter_mut().zip(counts) {
+        let normal = look.normal();
         let square: i64 = normal.iter().map(|part| i64::from(*part) * i64::from(*part)).sum();
         let length = square.isqrt().max(1);
         let unit = normal.map(|part| (i64::from(part) * (1 << 14) / length) as i16);
-        *look = VertexLook::new(unit, colour.map(|sum| (sum / count.max(1)) as u8));
+        let sums = [look.red_blue as u16, (look.z_green >> 16) as u16, (look.red_blue >> 16) as u16];
+        *look = VertexLook::new(unit, sums.map(|sum| (sum / (*count).max(1)) as u8));
     }
     Some(looks)
+}
+
+impl VertexLook {
+    /// Adds a normal and a colour, whose sums have 16 bits each and saturate.
+    fn add(&mut self, normal: [i16; 3], colour: [u8; 3]) {
+        let signed = |half: u32, part: i16| u32::from((half as i16).saturating_add(part) as u16);
+        let unsigned = |half: u32, part: u8| u32::from((half as u16).saturating_add(part.into()));
+        self.x_y = signed(self.x_y, normal[0]) | signed(self.x_y >> 16, normal[1]) << 16;
+        self.z_green = signed(self.z_green, normal[2]) | unsigned(self.z_green >> 16, colour[1]) << 16;
+        self.red_blue = unsigned(self.red_blue, colour[0]) | unsigned(self.red_blue >> 16, colour[2]) << 16;
+    }
 }
 
 #[cfg(test)]
@@ -100,7 +127,8 @@ mod tests {
     use super::*;
     use crate::light::DirectionalLight;
     use crate::matrix::Matrix;
-    use fixed::types::{I2F30, I16F16};
+    use crate::mesh::{Face, Winding};
+    use fixed::types::{I2F30, I4F28, I16F16};
 
     #[test]
     fn a_look_keeps_its_normal_and_colour() {
@@ -108,6 +136,29 @@ mod tests {
             let look = VertexLook::new(normal, colour);
             assert_eq!((look.normal(), look.colour()), (normal, colour));
         }
+    }
+
+    #[test]
+    fn a_vertex_looks_like_the_mean_of_its_faces() {
+        let one = I4F28::ONE;
+        let positions = [[-one, -one, -one], [one, -one, -one], [-one, one, -one], [-one, -one, one], [one; 3]];
+        let half = 1 << 14;
+        let faces = [
+            Face { corners: [0, 2, 1], normal: [0, 0, -half], colour: [255, 0, 10] },
+            Face { corners: [0, 1, 3], normal: [0, -half, 0], colour: [255, 100, 20] },
+            Face { corners: [0, 3, 2], normal: [-half, 0, 0], colour: [255, 200, 60] },
+        ];
+        let mesh = Mesh::new(&positions, &faces, Winding::CounterClockwise).expect("a mesh");
+        let mut looks = [VertexLook::default(); 5];
+        let looks = looks_of_faces(&mesh, &mut looks, &mut [0; 5]).expect("as many as vertices");
+        // 2¹⁴ over the square root of 3 is 9,459.
+        assert!(looks[0].normal().iter().all(|part| (part + 9_459).abs() <= 20), "{:?}", looks[0].normal());
+        assert_eq!(
+            (looks[0].colour(), looks[1].colour(), looks[3].colour()),
+            ([255, 100, 30], [255, 50, 15], [255, 150, 40])
+        );
+        assert_eq!((looks[4].normal(), looks[4].colour()), ([0; 3], [0; 3]), "no face has it");
+        assert!(looks_of_faces(&mesh, &mut [VertexLook::default(); 4], &mut [0; 5]).is_none());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use crate::clip::{Corner, MAX_CORNERS, clip};
+use crate::clip::{Corner, MAX_CORNERS, Polygon, clip};
 use crate::mesh::{Face, Winding};
 use crate::pipeline::{Culling, Sink, Transformed};
 use crate::setup::{ScreenVertex, doubled_area};
@@ -11,7 +11,7 @@ use crate::shade::{Paint, Shade};
 /// One mesh being drawn.
 pub(crate) struct Pass<'a, H, S> {
     pub(crate) transformed: &'a Transformed<'a>,
-    pub(crate) shade: &'a H,
+    pub(crate) shade: H,
     pub(crate) culling: Culling,
     pub(crate) sink: &'a mut S,
     pub(crate) drawn: u32,
@@ -62,9 +62,7 @@ impl<H: Shade, S: Sink> Pass<'_, H, S> {
         c: &ScreenVertex,
         paint: H::Paint<'_>,
     ) -> ControlFlow<()> {
-        let drawn = self.shade.draw(self.sink, [a, b, c], paint)?;
-        self.drawn += u32::from(drawn);
-        ControlFlow::Continue(())
+        self.shade.draw(self.sink, [a, b, c], paint, &mut self.drawn)
     }
 
     /// A face seen from behind that is to be drawn: turned round, its normals with it.
@@ -87,34 +85,41 @@ impl<H: Shade, S: Sink> Pass<'_, H, S> {
     #[inline(never)]
     fn clipped_face(&mut self, face: &Face, corners: [usize; 3]) -> ControlFlow<()> {
         self.clipped += 1;
-        let [i, j, k] = corners;
-        if !self.fan(self.shade.paint(face, corners), corners)? && self.culling == Culling::None {
-            self.fan(self.shade.paint_back(&turned(face), [i, k, j]), [i, k, j])?;
+        let paint = self.shade.paint(face, corners);
+        let turned = turned(face);
+        let paint_back = self.shade.paint_back(&turned, corners);
+        let front = self.clipped(corners, paint.corner_colours());
+        let back = if <H::Paint<'_> as Paint>::BY_CORNER && self.culling == Culling::None {
+            self.clipped(corners, paint_back.corner_colours())
+        } else {
+            front
+        };
+        let mut projected = [ScreenVertex::default(); MAX_CORNERS];
+        for (vertex, corner) in projected.iter_mut().zip(front.corners()) {
+            *vertex = corner.at.project();
+        }
+        for second in 1..front.corners().len().saturating_sub(1) {
+            let [a, b, c] = [0, second, second + 1];
+            let area = doubled_area([&projected[a], &projected[b], &projected[c]]);
+            if area < 0 {
+                let part = paint.with_corner_colours([a, b, c].map(|corner| front.corners()[corner].colour));
+                self.front_face(&projected[a], &projected[b], &projected[c], part)?;
+            } else if self.culling == Culling::None && area > 0 {
+                let part = paint_back.with_corner_colours([a, c, b].map(|corner| back.corners()[corner].colour));
+                self.front_face(&projected[a], &projected[c], &projected[b], part)?;
+            }
         }
         ControlFlow::Continue(())
     }
 
-    /// Draws what is left of a triangle, if that faces the eye; returns whether it does.
-    fn fan(&mut self, paint: H::Paint<'_>, indices: [usize; 3]) -> ControlFlow<(), bool> {
-        let colours = paint.corner_colours();
-        let polygon = clip([0, 1, 2].map(|corner: usize| Corner {
-            at: self.transformed.homogeneous(indices[corner]),
-            colour: colours[corner],
-        }));
-        let mut projected = [ScreenVertex::default(); MAX_CORNERS];
-        for (vertex, corner) in projected.iter_mut().zip(polygon.corners()) {
-            *vertex = corner.at.project();
-        }
-        let mut faces_the_eye = false;
-        for second in 1..polygon.corners().len().saturating_sub(1) {
-            let [a, b, c] = [0, second, second + 1];
-            if doubled_area([&projected[a], &projected[b], &projected[c]]) < 0 {
-                faces_the_eye = true;
-                let part = paint.with_corner_colours([a, b, c].map(|corner| polygon.corners()[corner].colour));
-                self.front_face(&projected[a], &projected[b], &projected[c], part)?;
-            }
-        }
-        ControlFlow::Continue(faces_the_eye)
+    /// What is left of a triangle whose corners have these colours.
+    fn clipped(&self, indices: [usize; 3], colours: [[u8; 3]; 3]) -> Polygon {
+        clip(
+            [0, 1, 2].map(|corner: usize| Corner {
+                at: self.transformed.homogeneous(indices[corner]),
+                colour: colours[corner],
+            }),
+        )
     }
 }
 

@@ -8,7 +8,7 @@ use crate::look::{LitColour, VertexLook, light_vertices};
 use crate::mesh::{Mesh, Position};
 use crate::pass::Pass;
 use crate::setup::ScreenVertex;
-use crate::shade::{Flat, Shade, Smooth, Unlit};
+use crate::shade::{Flat, FlatUneven, Shade, Smooth, Unlit};
 use crate::transform::{Homogeneous, ScreenTransform};
 
 /// Which faces are drawn.
@@ -138,7 +138,10 @@ impl<'a> Transformed<'a> {
     /// Turns every face into no, one or (if it is clipped) several triangles of one colour in
     /// `sink`, until the sink breaks off.
     pub fn draw(&self, light: &ObjectLight, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
-        self.draw_as(&Flat { light }, culling, sink)
+        match &light.uneven {
+            None => self.draw_as(Flat { light }, culling, sink),
+            Some(light) => self.draw_as(FlatUneven { light }, culling, sink),
+        }
     }
 
     /// As [`draw`](Self::draw), but lit at each vertex, with colours that change over the face.
@@ -161,11 +164,11 @@ impl<'a> Transformed<'a> {
             return Err(CacheTooSmall { needed, given });
         };
         light_vertices(looks, light, lit);
-        Ok(self.draw_as(&Smooth { light, looks, lit }, culling, sink))
+        Ok(self.draw_as(Smooth { light, looks, lit }, culling, sink))
     }
 
     /// As [`draw`](Self::draw), but unlit and in one mode: depth alone, or depth as grey.
-    pub fn draw_unlit(&self, style: &Unlit, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
+    pub fn draw_unlit(&self, style: Unlit, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
         self.draw_as(style, culling, sink)
     }
 
@@ -197,7 +200,7 @@ impl<'a> Transformed<'a> {
         self.transform.homogeneous(&self.mesh.positions()[index])
     }
 
-    fn draw_as(&self, shade: &impl Shade, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
+    fn draw_as(&self, shade: impl Shade, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
         let mut pass = Pass { transformed: self, shade, culling, sink, drawn: 0, clipped: 0 };
         // A mesh wholly inside needs no test for it at every face.
         let _ = match (self.any_outside, culling) {

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use fpga_regs::packet::{FlatTriangle, GouraudTriangle, Header, Kind, PixelMode, TriangleShape};
 use fpga_regs::screen::Rgb332;
 
-use crate::light::ObjectLight;
+use crate::light::{ObjectLight, UnevenLight};
 use crate::look::{LitColour, VertexLook};
 use crate::mesh::Face;
 use crate::pipeline::{Drawn, Sink};
@@ -13,6 +13,9 @@ use crate::setup::{ScreenVertex, last_words, set_up_gouraud_words, set_up_shape}
 
 /// What the colours of one triangle are worked out from.
 pub(crate) trait Paint: Copy {
+    /// Whether the corners' colours matter.
+    const BY_CORNER: bool;
+
     /// Returns the corners' colours, which clipping mixes; all alike where they do not matter.
     fn corner_colours(self) -> [[u8; 3]; 3];
 
@@ -22,6 +25,8 @@ pub(crate) trait Paint: Copy {
 
 /// One colour, whatever the corners.
 impl Paint for &Face {
+    const BY_CORNER: bool = false;
+
     fn corner_colours(self) -> [[u8; 3]; 3] {
         [[0; 3]; 3]
     }
@@ -33,6 +38,8 @@ impl Paint for &Face {
 
 /// The corners' colours.
 impl Paint for [[u8; 3]; 3] {
+    const BY_CORNER: bool = true;
+
     fn corner_colours(self) -> [[u8; 3]; 3] {
         self
     }
@@ -44,6 +51,8 @@ impl Paint for [[u8; 3]; 3] {
 
 /// None.
 impl Paint for () {
+    const BY_CORNER: bool = false;
+
     fn corner_colours(self) -> [[u8; 3]; 3] {
         [[0; 3]; 3]
     }
@@ -52,7 +61,7 @@ impl Paint for () {
 }
 
 /// A way to paint triangles.
-pub(crate) trait Shade {
+pub(crate) trait Shade: Copy {
     /// What it works out colours from.
     type Paint<'f>: Paint;
 
@@ -62,13 +71,19 @@ pub(crate) trait Shade {
     /// Returns the paint of a face seen from behind. Its normal is turned round already.
     fn paint_back<'f>(&self, face: &'f Face, corners: [usize; 3]) -> Self::Paint<'f>;
 
-    /// Draws a triangle whose corners go counter-clockwise on screen; returns whether any of it is
-    /// on the screen, or breaks off when the sink does.
-    fn draw<S: Sink>(&self, sink: &mut S, corners: [&ScreenVertex; 3], paint: Self::Paint<'_>)
-    -> ControlFlow<(), bool>;
+    /// Draws a triangle whose corners go counter-clockwise on screen, and counts it if any of it is
+    /// on the screen; breaks off when the sink does.
+    fn draw<S: Sink>(
+        &self,
+        sink: &mut S,
+        corners: [&ScreenVertex; 3],
+        paint: Self::Paint<'_>,
+        drawn: &mut u32,
+    ) -> ControlFlow<()>;
 }
 
 /// One colour a face, lit.
+#[derive(Clone, Copy)]
 pub(crate) struct Flat<'a> {
     pub(crate) light: &'a ObjectLight,
 }
@@ -86,22 +101,59 @@ impl Shade for Flat<'_> {
     }
 
     #[inline(always)]
-    fn draw<S: Sink>(&self, sink: &mut S, corners: [&ScreenVertex; 3], face: &Face) -> ControlFlow<(), bool> {
+    fn draw<S: Sink>(
+        &self,
+        sink: &mut S,
+        corners: [&ScreenVertex; 3],
+        face: &Face,
+        drawn: &mut u32,
+    ) -> ControlFlow<()> {
         let Some(words) = sink.room::<{ FlatTriangle::WORDS }>() else { return ControlFlow::Break(()) };
         if set_up_shape(corners, last_words(words)).is_none() {
-            return ControlFlow::Continue(false);
+            return ControlFlow::Continue(());
         }
-        if let Some(light) = &self.light.uneven {
-            let colour = light.lit(face.normal, face.colour);
-            let [red, green, blue] = colour;
-            words[0] = flat_header(Rgb332::nearest(red, green, blue));
-            sink.take::<{ FlatTriangle::WORDS }>(Drawn::Flat { corners, colour });
-        } else {
-            let intensity = self.light.intensity(face.normal);
-            words[0] = flat_header(intensity.framebuffer_colour(face.colour));
-            sink.take::<{ FlatTriangle::WORDS }>(Drawn::Flat { corners, colour: intensity.colour(face.colour) });
+        let intensity = self.light.intensity(face.normal);
+        words[0] = flat_header(intensity.framebuffer_colour(face.colour));
+        *drawn += 1;
+        sink.take::<{ FlatTriangle::WORDS }>(Drawn::Flat { corners, colour: intensity.colour(face.colour) });
+        ControlFlow::Continue(())
+    }
+}
+
+/// As [`Flat`], by a light that takes longer: its own type, so that the other has no test for it.
+#[derive(Clone, Copy)]
+pub(crate) struct FlatUneven<'a> {
+    pub(crate) light: &'a UnevenLight,
+}
+
+impl Shade for FlatUneven<'_> {
+    type Paint<'f> = &'f Face;
+
+    fn paint<'f>(&self, face: &'f Face, _: [usize; 3]) -> &'f Face {
+        face
+    }
+
+    fn paint_back<'f>(&self, face: &'f Face, _: [usize; 3]) -> &'f Face {
+        face
+    }
+
+    fn draw<S: Sink>(
+        &self,
+        sink: &mut S,
+        corners: [&ScreenVertex; 3],
+        face: &Face,
+        drawn: &mut u32,
+    ) -> ControlFlow<()> {
+        let Some(words) = sink.room::<{ FlatTriangle::WORDS }>() else { return ControlFlow::Break(()) };
+        if set_up_shape(corners, last_words(words)).is_none() {
+            return ControlFlow::Continue(());
         }
-        ControlFlow::Continue(true)
+        let colour = self.light.lit(face.normal, face.colour);
+        let [red, green, blue] = colour;
+        words[0] = flat_header(Rgb332::nearest(red, green, blue));
+        *drawn += 1;
+        sink.take::<{ FlatTriangle::WORDS }>(Drawn::Flat { corners, colour });
+        ControlFlow::Continue(())
     }
 }
 
@@ -111,6 +163,7 @@ fn flat_header(colour: Rgb332) -> u32 {
 }
 
 /// A colour a corner, lit there.
+#[derive(Clone, Copy)]
 pub(crate) struct Smooth<'a> {
     pub(crate) light: &'a ObjectLight,
     pub(crate) looks: &'a [VertexLook],
@@ -133,14 +186,21 @@ impl Shade for Smooth<'_> {
     }
 
     #[inline(always)]
-    fn draw<S: Sink>(&self, sink: &mut S, corners: [&ScreenVertex; 3], colours: [[u8; 3]; 3]) -> ControlFlow<(), bool> {
+    fn draw<S: Sink>(
+        &self,
+        sink: &mut S,
+        corners: [&ScreenVertex; 3],
+        colours: [[u8; 3]; 3],
+        drawn: &mut u32,
+    ) -> ControlFlow<()> {
         let Some(words) = sink.room::<{ GouraudTriangle::WORDS }>() else { return ControlFlow::Break(()) };
         if !set_up_gouraud_words(corners, colours, words) {
-            return ControlFlow::Continue(false);
+            return ControlFlow::Continue(());
         }
         words[0] = Header::of(Kind::GouraudTriangle).0;
+        *drawn += 1;
         sink.take::<{ GouraudTriangle::WORDS }>(Drawn::Gouraud { corners, colours });
-        ControlFlow::Continue(true)
+        ControlFlow::Continue(())
     }
 }
 
@@ -171,11 +231,11 @@ impl Shade for Unlit {
 
     fn paint_back(&self, _: &Face, _: [usize; 3]) {}
 
-    fn draw<S: Sink>(&self, sink: &mut S, corners: [&ScreenVertex; 3], (): ()) -> ControlFlow<(), bool> {
+    fn draw<S: Sink>(&self, sink: &mut S, corners: [&ScreenVertex; 3], (): (), drawn: &mut u32) -> ControlFlow<()> {
         let Some(words) = sink.room::<{ FlatTriangle::WORDS }>() else { return ControlFlow::Break(()) };
         let shape: &mut [u32; TriangleShape::WORDS] = last_words(words);
         if set_up_shape(corners, shape).is_none() {
-            return ControlFlow::Continue(false);
+            return ControlFlow::Continue(());
         }
         if self.pushed_back {
             // Depth is the eighth word of a shape, its steps the two behind.
@@ -184,7 +244,8 @@ impl Shade for Unlit {
             *depth = depth.wrapping_add(slope).wrapping_add(Self::UNITS);
         }
         words[0] = Header::of(Kind::FlatTriangle).with_mode(self.mode).0;
+        *drawn += 1;
         sink.take::<{ FlatTriangle::WORDS }>(Drawn::Flat { corners, colour: [0; 3] });
-        ControlFlow::Continue(true)
+        ControlFlow::Continue(())
     }
 }

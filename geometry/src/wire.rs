@@ -70,3 +70,34 @@ fn line(a: &ScreenVertex, b: &ScreenVertex, style: &LineStyle, sink: &mut impl S
     }
     ControlFlow::Continue(drawn)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Face, Winding};
+    use crate::shapes::torus;
+    use fixed::types::I4F28;
+    use std::collections::BTreeSet;
+    use std::vec;
+
+    #[test]
+    fn every_edge_of_a_mesh_is_there_once() {
+        let (mut positions, mut faces) = (vec![[I4F28::ZERO; 3]; 48], vec![Face::default(); 96]);
+        let sizes = (I4F28::ONE, I4F28::from_num(0.25));
+        let (positions, faces) = torus((8, 6), sizes, |_, _| [9; 3], &mut positions, &mut faces).expect("it fits");
+        let mesh = Mesh::new(positions, faces, Winding::CounterClockwise).expect("a mesh");
+        let mut buffer = vec![[0; 2]; 288];
+        let found = edges(&mesh, &mut buffer).expect("it fits");
+        // A closed surface has three edges for every two faces.
+        assert_eq!(found.len(), 144);
+        let mut expected = BTreeSet::new();
+        for face in faces {
+            for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+                let ends = [face.corners[from], face.corners[to]];
+                expected.insert([ends[0].min(ends[1]), ends[0].max(ends[1])]);
+            }
+        }
+        assert!(found.iter().eq(expected.iter()), "{found:?}");
+        assert_eq!(edges(&mesh, &mut [[0; 2]; 287]), None);
+    }
+}

@@ -107,7 +107,7 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
 pub fn on_host() -> anyhow::Result<Vec<Measurement>> {
     let mut mesh_memory = Box::<MeshMemory>::default();
     let meshes = Meshes::new(&mut mesh_memory)?;
-    let mesh = meshes.of(Scene::Torus);
+    let mesh = &meshes.of(Scene::Torus).mesh;
     let view = Viewer::new(Scene::Torus).view(&Controls::new(Config::default()).state());
     let transform = ScreenTransform::new(&view.model_to_clip, mesh);
     let light = ObjectLight::new(&view.light, &view.model);
