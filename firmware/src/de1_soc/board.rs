@@ -4,6 +4,7 @@ use core::cell::Cell;
 use core::fmt::Write as _;
 
 use critical_section::Mutex;
+use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
 use heapless::spsc::Queue;
 
@@ -18,7 +19,7 @@ use super::history::{FAILURES, Note, Stage, Verdict};
 use super::interrupts::{self, Sources};
 use super::memory_map::{
     CLUSTER, FPGA_MANAGER, GPIO1, INTERCONNECT, KEY_BIT, LED_BIT, RESET_MANAGER, SYSTEM_MANAGER, TRANSLATION_TABLE,
-    UART, UART_HERTZ, UART_INTERRUPT, WATCHDOG,
+    UART, UART_HERTZ, UART_INTERRUPT, USB, USB_INTERRUPT, USB_MEMORY, WATCHDOG,
 };
 use super::reset_cause::ResetCause;
 use super::reset_manager::{Peripheral, ResetManager};
@@ -28,17 +29,22 @@ use super::watchdog::Watchdog;
 use crate::armv7a::exceptions::{Hooks, park};
 use crate::armv7a::start::arguments_of_go;
 use crate::cortex_a9::gic::{Distributor, Interface, InterruptId};
-use crate::cortex_a9::global_timer::GlobalTimer;
+use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
+use crate::cortex_a9::l2c310::L2c310;
 use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::cortex_a9::start;
 use crate::mmio::Registers;
 use crate::serial::{Config, Console, Link};
+use crate::usb::{Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
 
 /// Bytes that the link queues: about a third of a second at 115,200 baud.
 const LINK_QUEUE: usize = 4096;
 const SERIAL: Config = Config { clock_hertz: UART_HERTZ, baud: 115_200 };
 /// The tick that ends every sleep, and at which the time is looked at.
-const TICKS_PER_SECOND: u32 = 1_000;
+const TICKS_PER_SECOND: u32 = (1_000_000 / TICK_MICROSECONDS) as u32;
+/// How long the USB core is held in reset: it wants twelve clocks of its PHY, 60 MHz, at least
+/// (Intel's HPS manual 683126, §19.4.4).
+const USB_RESET_US: u32 = 10;
 
 static TAKEN: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 
@@ -66,6 +72,12 @@ pub(super) struct Board {
     pub(super) verdict: Verdict,
     /// What U-Boot's `go` was told.
     pub(super) arguments: Words,
+}
+
+impl Now for GlobalTimer {
+    fn microseconds(self) -> u64 {
+        self.microseconds()
+    }
 }
 
 impl Board {
@@ -96,6 +108,7 @@ impl Board {
     /// Called once, with the MMU on and UART0 set up.
     unsafe fn drivers(start: start::Report, arguments: Words) -> Self {
         static mut LINK_BYTES: Queue<u8, LINK_QUEUE> = Queue::new();
+        static USB_ROOM: Room<GlobalTimer> = Room::new();
 
         let (resets, system) = (resets(), system());
         let cause = resets.take_cause();
@@ -115,10 +128,22 @@ impl Board {
             interface.configure();
             let mut distributor = Distributor::at(CLUSTER.interrupt_distributor());
             distributor.configure();
-            for interrupt in [InterruptId::PRIVATE_TIMER, UART_INTERRUPT] {
+            resets.hold(Peripheral::Usb1);
+            Delay::new(clock).delay_us(USB_RESET_US);
+            resets.release(Peripheral::Usb1);
+            let core = Dwc2Core::at(USB, USB_MEMORY, clock, drain_to_memory);
+            let usb = Service::new(&USB_ROOM, core, dwc2_host::Config::new(), clock).expect("the room is taken once");
+
+            for interrupt in [InterruptId::PRIVATE_TIMER, UART_INTERRUPT, USB_INTERRUPT] {
                 distributor.enable(interrupt);
             }
-            interrupts::install(Sources { interface, distributor, timer: timer.interrupt(), link: link_interrupt });
+            interrupts::install(Sources {
+                interface,
+                distributor,
+                timer: timer.interrupt(),
+                link: link_interrupt,
+                usb,
+            });
             timer.start_periodic(TICKS_PER_SECOND);
             // Not inside a critical section: every one above has ended.
             cortex_ar::interrupt::enable();
@@ -146,6 +171,16 @@ impl Board {
             }
         }
     }
+}
+
+/// Returns when what was stored in uncached memory has left the processor's and the L2 cache's write buffers, and
+/// nothing that follows is loaded before.
+fn drain_to_memory() {
+    cortex_ar::asm::dsb();
+    // SAFETY: the controller answers there; draining its buffers disturbs nobody.
+    let mut cache = unsafe { L2c310::at(CLUSTER.l2_cache_controller) };
+    // One that is stuck is off since the start.
+    let _ = cache.drain();
 }
 
 /// The UART. Its drivers are this module's: console and link, and the last words after both.
