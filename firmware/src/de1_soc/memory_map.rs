@@ -4,7 +4,7 @@
 //! U-Boot's SPL sets them on this board; interrupts of Intel's `alt_int_device.h`. The FPGA's
 //! side is in [`fpga_regs::de1_soc`].
 
-use crate::armv7a::translation_table::{Memory, Region, TranslationTable};
+use crate::armv7a::translation_table::{Memory, Region};
 use crate::cortex_a9::Cluster;
 use crate::cortex_a9::gic::InterruptId;
 
@@ -59,7 +59,7 @@ pub const FPGA_IMAGE_END: u32 = 0x1000_0000;
 ///
 /// The FPGA's windows are mapped although nothing may answer there: an access before the FPGA is
 /// configured and the bridge is open hangs the bus, and no table can prevent that.
-pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
+pub const REGIONS: &[Region] = &[
     Region { start: 0x0100_0000, sections: 16, memory: Memory::Code },
     Region { start: 0x0280_0000, sections: 64, memory: Memory::Data },
     // The stack guard, 8 MiB below the end of the data.
@@ -71,11 +71,14 @@ pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
     Region { start: 0xC000_0000, sections: 1, memory: Memory::Device },
     // The lightweight bridge (2 MiB at 0xFF200000), peripherals, on-chip RAM.
     Region { start: 0xFF20_0000, sections: 14, memory: Memory::Device },
-]);
+];
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::armv7a::translation_table::TranslationTable;
+
+    static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(REGIONS);
 
     #[test]
     fn what_the_program_touches_is_mapped_and_its_guard_is_not() {
