@@ -8,25 +8,25 @@
 `default_nettype none
 
 module command_fifo #(
-    parameter int unsigned Depth = 1024,
-    localparam int unsigned LevelWidth = $clog2(Depth) + 1
+    parameter int unsigned Depth = 1024
 ) (
-    input  logic                  clk_i,
-    input  logic                  rst_ni,
-    input  logic                  clear_i,
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   clear_i,
 
-    input  logic                  valid_i,
-    output logic                  ready_o,
-    input  logic [31:0]           word_i,
+    input  logic                   valid_i,
+    output logic                   ready_o,
+    input  logic [31:0]            word_i,
 
-    output logic                  valid_o,
-    input  logic                  ready_i,
-    output logic [31:0]           word_o,
+    output logic                   valid_o,
+    input  logic                   ready_i,
+    output logic [31:0]            word_o,
 
-    output logic [LevelWidth-1:0] level_o
+    output logic [$clog2(Depth):0] level_o
 );
 
   localparam int unsigned AddressWidth = $clog2(Depth);
+  localparam int unsigned LevelWidth = AddressWidth + 1;
 
   // One bit more than an address, so that full and empty differ.
   logic [LevelWidth-1:0] write_q, write_d, read_q, read_d;

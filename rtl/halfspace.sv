@@ -6,10 +6,7 @@
 // Resets are asynchronous and released here with their clocks.
 `default_nettype none
 
-module halfspace
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module halfspace #(
     parameter int unsigned PixelUnits = 8,  // 1, 2, 4 or 8
     parameter int unsigned FifoDepth = 1024,  // words; a power of two, 32 to 32,768
     parameter int unsigned FifoPatience = 1 << 22,  // clocks that a word waits at most
@@ -41,6 +38,9 @@ module halfspace
     output logic        vga_blank_no,
     output logic        vga_sync_no
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned LevelWidth = $clog2(FifoDepth) + 1;
   localparam int unsigned IndexWidth = $clog2(Width * Height / PixelUnits);
@@ -76,8 +76,10 @@ module halfspace
   logic [PixelUnits-1:0] covered, tested, written, unit_idle;
   value_t [PixelUnits-1:0] pixel_depth;
   index_t index;
+  wholes_t [PixelUnits-1:0] pixel_plane;
+  logic [PixelUnits-1:0][3:0] threshold;
   logic [7:0] colour;
-  logic depth_test;
+  pixel_mode_t mode;
 
   logic front, swapped, fenced;
   logic vertical_blank, swap_window;
@@ -212,12 +214,16 @@ module halfspace
       .covered_o   (covered),
       .depth_o     (pixel_depth),
       .index_o     (index),
+      .plane_o     (pixel_plane),
+      .threshold_o (threshold),
       .colour_o    (colour),
-      .depth_test_o(depth_test),
+      .mode_o      (mode),
       .idle_o      (evaluator_idle)
   );
 
-  for (genvar k = 0; k < PixelUnits; k++) begin : g_unit
+  genvar k;
+  generate
+  for (k = 0; k < PixelUnits; k++) begin : g_unit
     pixel_unit #(
         .PixelUnits(PixelUnits)
     ) u_unit (
@@ -225,9 +231,11 @@ module halfspace
         .rst_ni       (rst_n),
         .clear_i      (clear),
         .covered_i    (covered[k]),
-        .depth_test_i (depth_test),
+        .mode_i       (mode),
         .index_i      (index[IndexWidth-1:0]),
         .depth_i      (pixel_depth[k]),
+        .plane_i      (pixel_plane[k]),
+        .threshold_i  (threshold[k]),
         .colour_i     (colour),
         .back_buffer_i(!front),
         .tested_o     (tested[k]),
@@ -239,6 +247,7 @@ module halfspace
         .vga_colour_o (vga_colour[k])
     );
   end
+  endgenerate
 
   assign drained = traversal_idle && evaluator_idle && (&unit_idle) && counters_idle;
   assign busy    = !drained || primitive_valid || swap_valid || fence_valid || mid_packet;
@@ -266,7 +275,7 @@ module halfspace
       .clk_i,
       .rst_ni          (rst_n),
       .clear_i         (clear),
-      .triangle_i      (primitive_valid && primitive_ready && new_primitive.depth_test),
+      .triangle_i      (primitive_valid && primitive_ready && new_primitive.mode.counted),
       .tested_i        (tested),
       .written_i       (written),
       .busy_i          (busy),

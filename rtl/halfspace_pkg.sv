@@ -9,9 +9,12 @@ package halfspace_pkg;
   localparam int unsigned Height = 240;  // pixels
   localparam int unsigned SubpixelBits = 4;  // fraction bits of a screen coordinate
   localparam int unsigned DepthFractionBits = 12;  // fraction bits of depth in a packet
+  localparam int unsigned ColourFractionBits = 12;  // fraction bits of a colour channel in a packet
+  localparam int unsigned ChannelBits = 21;  // bits of a colour channel in a packet
   localparam int unsigned DepthFar = 65535;  // far plane, and what a clear leaves
   localparam int unsigned GuardBand = 8191;  // largest magnitude of a vertex's coordinate, sub-pixels
   localparam int unsigned FifoApertureWords = 1024;  // address space of the FIFO agent
+  localparam logic [15:0][3:0] Dither = 64'h5d7f91b36e4ca280;  // thresholds of ordered dithering, by 4 y + x
 
   // Registers: byte offsets from the agent's start.
   localparam logic [31:0] IdHalf = 32'h48414c46;  // what ID reads: "HALF"
@@ -65,7 +68,7 @@ package halfspace_pkg;
     logic [0:0] swap_interrupt;  // Interrupt when a swap took place.
     logic [0:0] low_water_interrupt;  // Interrupt when the FIFO's level falls to LOW_WATER.
     logic [5:0] unused_2;
-    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front. The other bits of the same write take effect after it.
+    logic [0:0] reset;  // Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front; a triangle or clear under way may stay half drawn. The other bits of the same write take effect after it.
     logic [0:0] enable;  // Takes words from the FIFO. While 0 the FIFO fills and nothing is drawn; a packet of which some words have come waits for the others.
   } control_t;
 
@@ -93,7 +96,7 @@ package halfspace_pkg;
   // Error flags.
   typedef struct packed {
     logic [29:0] unused_2;
-    logic [0:0] fifo_overflow;  // A word came while the FIFO was full; it was dropped.
+    logic [0:0] fifo_overflow;  // A word came while the FIFO was full and the device disabled, or had waited at the full FIFO for 2^22 clocks of the bus, or came after such a one before the FIFO had space again; it was dropped.
     logic [0:0] bad_packet;  // A packet of unknown kind, wrong length, with a reserved bit set or a box outside the screen. It was skipped by its length.
   } errors_t;
 
@@ -101,21 +104,27 @@ package halfspace_pkg;
   typedef enum logic [7:0] {
     KindClear = 8'h01,
     KindFlatTriangle = 8'h02,
+    KindGouraudTriangle = 8'h03,
     KindSwap = 8'h10,
     KindFence = 8'h11
   } kind_e;
 
   localparam int unsigned ClearWords = 1;  // words behind the header
   localparam int unsigned FlatTriangleWords = 10;  // words behind the header
+  localparam int unsigned GouraudTriangleWords = 16;  // words behind the header
   localparam int unsigned SwapWords = 0;  // words behind the header
   localparam int unsigned FenceWords = 1;  // words behind the header
-  localparam int unsigned PayloadWordsMax = 10;  // words behind the longest packet's header
+  localparam int unsigned PayloadWordsMax = 16;  // words behind the longest packet's header
+  localparam int unsigned ShapeWords = 10;  // words of a shape, a triangle packet's last ones
 
   // The word that every packet starts with.
   typedef struct packed {
     logic [7:0] kind;  // What the packet asks for.
     logic [7:0] length;  // How many words follow.
-    logic [7:0] reserved;  // Zero; room for later modes.
+    logic [4:0] reserved;  // Zero; room for later modes.
+    logic [0:0] depth_grey;  // Triangles only: the colour is the depth as grey, the farther the darker.
+    logic [0:0] keep_colour;  // Triangles only: leaves colour as it is.
+    logic [0:0] keep_depth;  // Triangles only: tests no depth and leaves depth as it is.
     logic [7:0] colour;  // RGB332 colour of a clear or a flat triangle; zero in other kinds.
   } header_t;
 
@@ -148,6 +157,35 @@ package halfspace_pkg;
   localparam int unsigned FlatTriangleDepthWord = 7;  // Depth at the box's upper left pixel centre, signed Q20.12 modulo 2^32.
   localparam int unsigned FlatTriangleDepthStepXWord = 8;  // Depth step of one pixel to the right.
   localparam int unsigned FlatTriangleDepthStepYWord = 9;  // Depth step of one row down.
+  localparam int unsigned GouraudTriangleColourLowWord = 0;  // Colour at the box's upper left pixel centre: red, lower part of green.
+  // Colour at the box's upper left pixel centre: red, lower part of green.
+  typedef struct packed {
+    logic [10:0] green_low;  // Bits 10…0 of green, Q9.12 modulo 2^21.
+    logic [20:0] red;  // Red, Q9.12 modulo 2^21.
+  } channels_low_t;
+
+  localparam int unsigned GouraudTriangleColourHighWord = 1;  // Upper part of green, blue.
+  // Upper part of green, blue.
+  typedef struct packed {
+    logic [0:0] reserved;  // Zero.
+    logic [20:0] blue;  // Blue, Q9.12 modulo 2^21.
+    logic [9:0] green_high;  // Bits 20…11 of green.
+  } channels_high_t;
+
+  localparam int unsigned GouraudTriangleColourStepXLowWord = 2;  // Colour step of one pixel to the right.
+  localparam int unsigned GouraudTriangleColourStepXHighWord = 3;  // Its upper part.
+  localparam int unsigned GouraudTriangleColourStepYLowWord = 4;  // Colour step of one row down.
+  localparam int unsigned GouraudTriangleColourStepYHighWord = 5;  // Its upper part.
+  localparam int unsigned GouraudTriangleColumnsWord = 6;  // Columns of the box.
+  localparam int unsigned GouraudTriangleRowsWord = 7;  // Rows of the box.
+  localparam int unsigned GouraudTriangleEdge0Word = 8;  // Edge 0 at the box's upper left pixel centre, signed.
+  localparam int unsigned GouraudTriangleEdge1Word = 9;  // Edge 1 there.
+  localparam int unsigned GouraudTriangleEdge2Word = 10;  // Edge 2 there.
+  localparam int unsigned GouraudTriangleSteps0Word = 11;  // Steps of edge 0.
+  localparam int unsigned GouraudTriangleSteps1Word = 12;  // Steps of edge 1; edge 2's are minus the sum of both.
+  localparam int unsigned GouraudTriangleDepthWord = 13;  // Depth at the box's upper left pixel centre, signed Q20.12 modulo 2^32.
+  localparam int unsigned GouraudTriangleDepthStepXWord = 14;  // Depth step of one pixel to the right.
+  localparam int unsigned GouraudTriangleDepthStepYWord = 15;  // Depth step of one row down.
   localparam int unsigned FenceTagWord = 0;  // Any 32-bit number.
 endpackage
 

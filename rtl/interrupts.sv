@@ -5,30 +5,30 @@
 // flag in ERRORS is set already.
 `default_nettype none
 
-module interrupts
-  import halfspace_pkg::*;
-#(
+module interrupts #(
     parameter int unsigned LevelWidth = 11
 ) (
-    input  logic                  clk_i,
-    input  logic                  rst_ni,
-    input  logic                  clear_i,
+    input  logic                       clk_i,
+    input  logic                       rst_ni,
+    input  logic                       clear_i,
 
-    input  logic [LevelWidth-1:0] level_i,      // of the FIFO
-    input  logic [31:0]           low_water_i,
-    input  logic                  swapped_i,
-    input  logic                  fenced_i,
-    input  logic                  bad_packet_i,
-    input  logic                  overflow_i,
+    input  logic [LevelWidth-1:0]      level_i,  // of the FIFO
+    input  logic [31:0]                low_water_i,
+    input  logic                       swapped_i,
+    input  logic                       fenced_i,
+    input  logic                       bad_packet_i,
+    input  logic                       overflow_i,
 
-    input  logic [3:0]            clear_interrupts_i,
-    input  logic [1:0]            clear_errors_i,
-    input  logic [3:0]            enable_i,     // in the order of INTERRUPTS
+    input  logic [3:0]                 clear_interrupts_i,
+    input  logic [1:0]                 clear_errors_i,
+    input  logic [3:0]                 enable_i,  // in the order of INTERRUPTS
 
-    output interrupts_t           interrupts_o,
-    output errors_t               errors_o,
-    output logic                  irq_o
+    output halfspace_pkg::interrupts_t interrupts_o,
+    output halfspace_pkg::errors_t     errors_o,
+    output logic                       irq_o
 );
+
+  import halfspace_pkg::*;
 
   logic [3:0] interrupts_q, interrupts_d;
   logic [1:0] errors_q, errors_d;

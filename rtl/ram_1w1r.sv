@@ -7,17 +7,16 @@
 
 module ram_1w1r #(
     parameter int unsigned Width = 8,
-    parameter int unsigned Depth = 1024,
-    localparam int unsigned AddressWidth = $clog2(Depth)
+    parameter int unsigned Depth = 1024
 ) (
-    input  logic                    write_clk_i,
-    input  logic                    write_i,
-    input  logic [AddressWidth-1:0] write_address_i,
-    input  logic [Width-1:0]        write_data_i,
+    input  logic                     write_clk_i,
+    input  logic                     write_i,
+    input  logic [$clog2(Depth)-1:0] write_address_i,
+    input  logic [Width-1:0]         write_data_i,
 
-    input  logic                    read_clk_i,
-    input  logic [AddressWidth-1:0] read_address_i,
-    output logic [Width-1:0]        read_data_o
+    input  logic                     read_clk_i,
+    input  logic [$clog2(Depth)-1:0] read_address_i,
+    output logic [Width-1:0]         read_data_o
 );
 
   logic [Width-1:0] mem[Depth];

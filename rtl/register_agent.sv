@@ -7,41 +7,41 @@
 // bits of the same write hold from that clock on.
 `default_nettype none
 
-module register_agent
-  import halfspace_pkg::*;
-#(
+module register_agent #(
     parameter int unsigned PixelUnits = 8,
     parameter int unsigned FifoDepth = 1024,
     parameter bit InterruptWired = 1'b1
 ) (
-    input  logic        clk_i,
-    input  logic        rst_ni,
+    input  logic                       clk_i,
+    input  logic                       rst_ni,
 
-    input  logic [9:0]  address_i,
-    input  logic        read_i,
-    output logic [31:0] readdata_o,
-    input  logic        write_i,
-    input  logic [31:0] writedata_i,
+    input  logic [9:0]                 address_i,
+    input  logic                       read_i,
+    output logic [31:0]                readdata_o,
+    input  logic                       write_i,
+    input  logic [31:0]                writedata_i,
 
-    output logic        clear_o,
-    output logic        enable_o,
-    output logic [3:0]  interrupt_enable_o,  // in the order of INTERRUPTS
-    output logic [31:0] low_water_o,
-    output logic [3:0]  clear_interrupts_o,
-    output logic [1:0]  clear_errors_o,
+    output logic                       clear_o,
+    output logic                       enable_o,
+    output logic [3:0]                 interrupt_enable_o,  // in the order of INTERRUPTS
+    output logic [31:0]                low_water_o,
+    output logic [3:0]                 clear_interrupts_o,
+    output logic [1:0]                 clear_errors_o,
 
-    input  status_t     status_i,
-    input  interrupts_t interrupts_i,
-    input  errors_t     errors_i,
-    input  logic [31:0] fence_i,
-    input  logic [31:0] triangles_i,
-    input  logic [31:0] pixels_tested_i,
-    input  logic [31:0] pixels_written_i,
-    input  logic [31:0] busy_cycles_i,
-    input  logic [31:0] stalled_cycles_i,
-    input  logic [31:0] frames_shown_i,
-    input  logic [31:0] bad_packets_i
+    input  halfspace_pkg::status_t     status_i,
+    input  halfspace_pkg::interrupts_t interrupts_i,
+    input  halfspace_pkg::errors_t     errors_i,
+    input  logic [31:0]                fence_i,
+    input  logic [31:0]                triangles_i,
+    input  logic [31:0]                pixels_tested_i,
+    input  logic [31:0]                pixels_written_i,
+    input  logic [31:0]                busy_cycles_i,
+    input  logic [31:0]                stalled_cycles_i,
+    input  logic [31:0]                frames_shown_i,
+    input  logic [31:0]                bad_packets_i
 );
+
+  import halfspace_pkg::*;
 
   control_t control_q, control_d, written;
   logic [31:0] low_water_q, low_water_d, readdata_q, readdata_d;

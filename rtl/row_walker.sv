@@ -14,30 +14,30 @@
 // Values that may wrap (`exhaustive`) give every row from the box's first tile.
 `default_nettype none
 
-module row_walker
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module row_walker #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic        clk_i,
-    input  logic        rst_ni,
-    input  logic        clear_i,
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    input  logic                    clear_i,
 
-    input  logic        valid_i,
-    output logic        ready_o,
-    input  constants_t  constants_i,
-    input  place_t      place_i,
-    input  row_t        rows_i,
+    input  logic                    valid_i,
+    output logic                    ready_o,
+    input  raster_pkg::constants_t  constants_i,
+    input  raster_pkg::place_t      place_i,
+    input  raster_pkg::row_t        rows_i,
 
-    output logic        valid_o,
-    input  logic        ready_i,
-    output span_start_t start_o,
-    output constants_t  constants_o,
-    input  logic        handed_on_i,
+    output logic                    valid_o,
+    input  logic                    ready_i,
+    output raster_pkg::span_start_t start_o,
+    output raster_pkg::constants_t  constants_o,
+    input  logic                    handed_on_i,
 
-    output logic        idle_o
+    output logic                    idle_o
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
   localparam int unsigned TileHeight = tile_height(PixelUnits);
@@ -77,9 +77,15 @@ module row_walker
     to_the_left.depth   = place_q.depth - constants_q.depth_step_x * value_t'(TileWidth);
     to_the_right.depth  = place_q.depth + constants_q.depth_step_x * value_t'(TileWidth);
     below.depth         = place_q.depth + constants_q.depth_step_y * value_t'(TileHeight);
+    to_the_left.plane   = difference(place_q.plane, channels_across(constants_q.plane_step_x, TileWidth));
+    to_the_right.plane  = sum(place_q.plane, channels_across(constants_q.plane_step_x, TileWidth));
+    below.plane         = sum(place_q.plane, channels_across(constants_q.plane_step_y, TileHeight));
     to_the_left.column  = place_q.column - 1'b1;
     to_the_right.column = place_q.column + 1'b1;
     below.column        = place_q.column;
+    to_the_left.row     = place_q.row;
+    to_the_right.row    = place_q.row;
+    below.row           = place_q.row + 1'b1;
     to_the_left.index   = place_q.index - 1'b1;
     to_the_right.index  = place_q.index + 1'b1;
     below.index         = place_q.index + TilesPerRow;
@@ -117,18 +123,17 @@ module row_walker
     top_d   = top_q;
     rows_d  = rows_q;
     place_d = place_q;
-    unique case (1'b1)
-      step_left: place_d = to_the_left;
-      step_right: place_d = to_the_right;
-      step_down: begin
-        place_d = below;
-        top_d   = 1'b0;
-        first_d = first_q && !start;
-        rows_d  = rows_q - 1'b1;
-        busy_d  = !bottom;
-      end
-      default: ;
-    endcase
+    if (step_left) begin
+      place_d = to_the_left;
+    end else if (step_right) begin
+      place_d = to_the_right;
+    end else if (step_down) begin
+      place_d = below;
+      top_d   = 1'b0;
+      first_d = first_q && !start;
+      rows_d  = rows_q - 1'b1;
+      busy_d  = !bottom;
+    end
     if (load) begin
       busy_d  = 1'b1;
       first_d = 1'b1;

@@ -4,24 +4,24 @@
 // `handed_on_o` is 1 when no start with `first` is inside, nor stays inside after this clock.
 `default_nettype none
 
-module span_queue
-  import raster_pkg::*;
-(
-    input  logic        clk_i,
-    input  logic        rst_ni,
-    input  logic        clear_i,
+module span_queue (
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    input  logic                    clear_i,
 
-    input  logic        valid_i,
-    output logic        ready_o,
-    input  span_start_t start_i,
+    input  logic                    valid_i,
+    output logic                    ready_o,
+    input  raster_pkg::span_start_t start_i,
 
-    output logic        valid_o,
-    input  logic        ready_i,
-    output span_start_t start_o,
+    output logic                    valid_o,
+    input  logic                    ready_i,
+    output raster_pkg::span_start_t start_o,
 
-    output logic        handed_on_o,
-    output logic        idle_o
+    output logic                    handed_on_o,
+    output logic                    idle_o
 );
+
+  import raster_pkg::*;
 
   span_start_t [1:0] starts_q;
   logic [1:0] valid_q, valid_d;

@@ -5,24 +5,24 @@
 // and cannot be held back. `constants_o` belongs to the tile that is shown.
 `default_nettype none
 
-module span_scanner
-  import raster_pkg::*;
-#(
+module span_scanner #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic        clk_i,
-    input  logic        rst_ni,
-    input  logic        clear_i,
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    input  logic                    clear_i,
 
-    input  logic        valid_i,
-    output logic        ready_o,
-    input  span_start_t start_i,
-    input  constants_t  constants_i,  // taken with a start that is `first`
+    input  logic                    valid_i,
+    output logic                    ready_o,
+    input  raster_pkg::span_start_t start_i,
+    input  raster_pkg::constants_t  constants_i,  // taken with a start that is `first`
 
-    output logic        valid_o,
-    output tile_t       tile_o,
-    output constants_t  constants_o
+    output logic                    valid_o,
+    output raster_pkg::tile_t       tile_o,
+    output raster_pkg::constants_t  constants_o
 );
+
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
 
@@ -42,7 +42,9 @@ module span_scanner
       end
     end
     to_the_right.depth  = place_q.depth + constants_q.depth_step_x * value_t'(TileWidth);
+    to_the_right.plane  = sum(place_q.plane, channels_across(constants_q.plane_step_x, TileWidth));
     to_the_right.column = place_q.column + 1'b1;
+    to_the_right.row    = place_q.row;
     to_the_right.index  = place_q.index + 1'b1;
   end
 

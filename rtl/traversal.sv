@@ -7,25 +7,25 @@
 // the pixel units none.
 `default_nettype none
 
-module traversal
-  import raster_pkg::*;
-#(
+module traversal #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic       clk_i,
-    input  logic       rst_ni,
-    input  logic       clear_i,
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   clear_i,
 
-    input  logic       valid_i,
-    output logic       ready_o,
-    input  primitive_t primitive_i,
+    input  logic                   valid_i,
+    output logic                   ready_o,
+    input  raster_pkg::primitive_t primitive_i,
 
-    output logic       valid_o,
-    output tile_t      tile_o,
-    output constants_t constants_o,
+    output logic                   valid_o,
+    output raster_pkg::tile_t      tile_o,
+    output raster_pkg::constants_t constants_o,
 
-    output logic       idle_o
+    output logic                   idle_o
 );
+
+  import raster_pkg::*;
 
   logic setup_valid, setup_ready, setup_idle;
   constants_t setup_constants;

@@ -7,28 +7,28 @@
 // hold a pixel inside that edge: largest = value at the tile's upper left pixel + reach.
 `default_nettype none
 
-module triangle_setup
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module triangle_setup #(
     parameter int unsigned PixelUnits = 8
 ) (
-    input  logic       clk_i,
-    input  logic       rst_ni,
-    input  logic       clear_i,
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   clear_i,
 
-    input  logic       valid_i,
-    output logic       ready_o,
-    input  primitive_t primitive_i,
+    input  logic                   valid_i,
+    output logic                   ready_o,
+    input  raster_pkg::primitive_t primitive_i,
 
-    output logic       valid_o,
-    input  logic       ready_i,
-    output constants_t constants_o,
-    output place_t     place_o,
-    output row_t       rows_o,       // tile rows after the first
+    output logic                   valid_o,
+    input  logic                   ready_i,
+    output raster_pkg::constants_t constants_o,
+    output raster_pkg::place_t     place_o,
+    output raster_pkg::row_t       rows_o,  // tile rows after the first
 
-    output logic       idle_o
+    output logic                   idle_o
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
   localparam int unsigned TileHeight = tile_height(PixelUnits);
@@ -50,6 +50,7 @@ module triangle_setup
   value_t [Edges-1:0] move_x_q, move_x_d, move_y_q, move_y_d;
   value_t [Edges-1:0] reach_q, reach_d;
   value_t depth_move_q, depth_move_d;
+  channels_t plane_move_q, plane_move_d;
   place_t place_q, place_d;
   logic [1:0] left;
   logic top;
@@ -75,6 +76,8 @@ module triangle_setup
       reach_d[i]  = (up_x ? times(step_x, LastX) : '0) + (up_y ? times(step_y, {1'b0, LastY}) : '0);
     end
     depth_move_d = times(primitive_q.depth_step_x, left) + times(primitive_q.depth_step_y, {1'b0, top});
+    plane_move_d = sum(channels_times(primitive_q.plane_step_x, left),
+                       channels_times(primitive_q.plane_step_y, {1'b0, top}));
   end
 
   always_comb begin
@@ -86,14 +89,18 @@ module triangle_setup
       place_d.largest[i] = primitive_q.edge_value[i] + move_x_q[i] + move_y_q[i];
     end
     place_d.depth  = primitive_q.depth - depth_move_q;
+    place_d.plane  = difference(primitive_q.plane, plane_move_q);
     place_d.column = column;
+    place_d.row    = row[1:0];
     place_d.index  = index_t'(row) * index_t'(Width / TileWidth) + index_t'(column);
   end
 
   always_comb begin
-    constants_o.depth_test   = primitive_q.depth_test;
+    constants_o.mode         = primitive_q.mode;
     constants_o.exhaustive   = 1'b0;
     constants_o.colour       = primitive_q.colour;
+    constants_o.plane_step_x = primitive_q.plane_step_x;
+    constants_o.plane_step_y = primitive_q.plane_step_y;
     constants_o.first_column = primitive_q.first_column >> ColumnShift;
     constants_o.last_column  = primitive_q.last_column >> ColumnShift;
     constants_o.left         = left;
@@ -145,6 +152,7 @@ module triangle_setup
       move_y_q     <= move_y_d;
       reach_q      <= reach_d;
       depth_move_q <= depth_move_d;
+      plane_move_q <= plane_move_d;
     end
     if (state_q == Add) place_q <= place_d;
   end

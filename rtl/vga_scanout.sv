@@ -6,33 +6,34 @@
 // `test_pattern_i` shows bars, steps and a frame instead, and needs no software.
 `default_nettype none
 
-module vga_scanout
-  import halfspace_pkg::*;
-  import raster_pkg::*;
-#(
+module vga_scanout #(
     parameter int unsigned PixelUnits = 8,
-    localparam int unsigned IndexWidth = $clog2(Width * Height / PixelUnits)
+    // Follows from the others; never given.
+    parameter int unsigned IndexWidth = $clog2(halfspace_pkg::Width * halfspace_pkg::Height / PixelUnits)
 ) (
-    input  logic       clk_i,
-    input  logic       rst_ni,
+    input  logic                       clk_i,
+    input  logic                       rst_ni,
 
-    input  logic       front_i,         // synchronized
-    input  logic       test_pattern_i,  // synchronized
+    input  logic                       front_i,  // synchronized
+    input  logic                       test_pattern_i,  // synchronized
 
     output logic [IndexWidth-1:0]      index_o,
     output logic                       buffer_o,
     input  logic [PixelUnits-1:0][7:0] colour_i,
 
-    output logic       vertical_blank_o,
-    output logic       swap_window_o,
+    output logic                       vertical_blank_o,
+    output logic                       swap_window_o,
 
-    output logic [7:0] red_o,
-    output logic [7:0] green_o,
-    output logic [7:0] blue_o,
-    output logic       hsync_no,
-    output logic       vsync_no,
-    output logic       blank_no
+    output logic [7:0]                 red_o,
+    output logic [7:0]                 green_o,
+    output logic [7:0]                 blue_o,
+    output logic                       hsync_no,
+    output logic                       vsync_no,
+    output logic                       blank_no
 );
+
+  import halfspace_pkg::*;
+  import raster_pkg::*;
 
   localparam int unsigned TileWidth = tile_width(PixelUnits);
   localparam int unsigned TileHeight = tile_height(PixelUnits);

@@ -1,8 +1,9 @@
-//! The tables behind the registers and packets, and the macro that makes a typed word.
+//! The tables behind the registers and packets, and the macros that make them.
 //!
 //! [`word!`](crate::word) writes a field down once and derives from it the accessors that Rust
 //! code uses and the [`Field`] table from which the reference page and the SystemVerilog
-//! package are generated. So the three cannot disagree.
+//! packages are generated. So the three cannot disagree. `registers!` does so for the registers of
+//! an agent: a block as it lies in memory, an enum of their offsets, and a [`RegisterInfo`] table.
 
 /// One bit field of a register or packet word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,6 +18,34 @@ pub struct Field {
     pub signed: bool,
     /// What the field means, from its doc comment.
     pub doc: &'static str,
+}
+
+/// How a register answers a write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// Read only: a write is ignored.
+    ReadOnly,
+    /// Reads back what was written (but for bits documented otherwise).
+    ReadWrite,
+    /// A one clears the bit, a zero leaves it.
+    WriteOneToClear,
+}
+
+/// A register's row in its agent's table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RegisterInfo {
+    /// Name in upper case, as in the SystemVerilog package.
+    pub name: &'static str,
+    /// Byte offset from the agent's start.
+    pub offset: usize,
+    /// How it answers a write.
+    pub access: Access,
+    /// Value after reset, where it is the same on every device.
+    pub reset: Option<u32>,
+    /// What it holds.
+    pub doc: &'static str,
+    /// Its fields; empty when it is one 32-bit number.
+    pub fields: &'static [Field],
 }
 
 /// A type that a bit field can hold.
@@ -134,5 +163,62 @@ macro_rules! word {
                 }
             )*
         }
+    };
+}
+
+/// Makes an agent's registers: the block as it lies in memory, an enum of byte offsets, and the table of both.
+///
+/// Offsets are checked at compile time; registers follow one another without a gap.
+macro_rules! registers {
+    (
+        $(#[doc = $block_doc:literal])+
+        $block:ident
+        $(#[doc = $register_doc:literal])+
+        $register:ident $table:ident;
+        $(
+            $(#[doc = $doc:literal])+
+            $offset:literal $name:ident $variant:ident $field:ident : $cell:ident $access:ident $reset:expr, $fields:expr;
+        )+
+    ) => {
+        $(#[doc = $block_doc])+
+        #[repr(C)]
+        pub struct $block {
+            $($(#[doc = $doc])+ pub $field: volatile_register::$cell<u32>,)+
+        }
+
+        $(const _: () = assert!(core::mem::offset_of!($block, $field) == $offset, concat!("offset of ", stringify!($name)));)+
+
+        $(#[doc = $register_doc])+
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[repr(usize)]
+        pub enum $register {
+            $($(#[doc = $doc])+ $variant = $offset,)+
+        }
+
+        impl $register {
+            /// All registers, by rising offset.
+            pub const ALL: &'static [$register] = &[$($register::$variant),+];
+
+            /// Returns the register at a byte offset, if there is one.
+            pub fn at(offset: usize) -> Option<Self> {
+                Self::ALL.iter().copied().find(|register| *register as usize == offset)
+            }
+
+            /// Returns the register's row in the table.
+            pub fn info(self) -> &'static $crate::layout::RegisterInfo {
+                &$table[self as usize / 4]
+            }
+        }
+
+        /// The register table, by rising offset.
+        pub const $table: &[$crate::layout::RegisterInfo] = &[$($crate::layout::RegisterInfo {
+            name: stringify!($name),
+            offset: $offset,
+            access: $crate::layout::Access::$access,
+            reset: $reset,
+            doc: concat!($($doc),+),
+            fields: $fields,
+        }),+];
     };
 }

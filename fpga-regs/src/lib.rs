@@ -6,9 +6,11 @@
 //! | [`packet`] | the command packets that travel in the FIFO, word by word |
 //! | [`screen`] | sizes and number formats that both sides hard-code |
 //! | [`port`] | the seam between the driver and the bridge ([`Port`]) |
+//! | [`board_io`] | the board's keys, switches, lights and displays, an agent of their own |
+//! | [`de1_soc`] | where the DE1-SoC's FPGA has all of this |
 //! | [`mmio`] | the bridge itself ([`MmioPort`]); the only `unsafe` of this crate |
 //! | [`renderer`] | the driver: identity check, flow control, time-outs, recovery |
-//! | [`layout`] | the tables that `cargo xtask generate` turns into a page and a SystemVerilog package |
+//! | [`layout`] | the tables that `cargo xtask generate` turns into a page and SystemVerilog packages |
 //! | `mock` | a host stand-in with a journal (feature `mock`) |
 //!
 //! The registers are 32 bits wide and little-endian. Commands do not go through them: they are
@@ -19,6 +21,8 @@
 pub mod error;
 #[macro_use]
 pub mod layout;
+pub mod board_io;
+pub mod de1_soc;
 pub mod mmio;
 #[cfg(any(test, feature = "mock"))]
 pub mod mock;

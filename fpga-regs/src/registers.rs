@@ -3,9 +3,7 @@
 //! Offsets are from the start of the agent, which is 0xFF20_0000 on the DE1-SoC. The tables on
 //! the generated page `docs/registers.md` come from here.
 
-use volatile_register::{RO, RW};
-
-use crate::layout::Field;
+pub use crate::layout::{Access, RegisterInfo};
 
 /// What ID reads: "HALF" in ASCII, most significant byte first.
 pub const ID_HALF: u32 = 0x4841_4c46;
@@ -13,34 +11,6 @@ pub const ID_HALF: u32 = 0x4841_4c46;
 pub const VERSION_MAJOR: u16 = 1;
 /// The contract's minor version: it grows with every compatible addition.
 pub const VERSION_MINOR: u16 = 0;
-
-/// How a register answers a write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    /// Read only: a write is ignored.
-    ReadOnly,
-    /// Reads back what was written (but for bits documented otherwise).
-    ReadWrite,
-    /// A one clears the bit, a zero leaves it.
-    WriteOneToClear,
-}
-
-/// A register's row in the table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RegisterInfo {
-    /// Name in upper case, as in the SystemVerilog package.
-    pub name: &'static str,
-    /// Byte offset from the agent's start.
-    pub offset: usize,
-    /// How it answers a write.
-    pub access: Access,
-    /// Value after reset, where it is the same on every device.
-    pub reset: Option<u32>,
-    /// What it holds.
-    pub doc: &'static str,
-    /// Its fields; empty when it is one 32-bit number.
-    pub fields: &'static [Field],
-}
 
 word! {
     /// VERSION: the contract that this FPGA was built to.
@@ -79,7 +49,7 @@ word! {
     Control {
         /// Takes words from the FIFO. While 0 the FIFO fills and nothing is drawn; a packet of which some words have come waits for the others.
         enable / with_enable: [0:0] bool,
-        /// Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front. The other bits of the same write take effect after it.
+        /// Empties the FIFO, forgets the packet under way, clears LOW_WATER, INTERRUPTS, ERRORS, FENCE and all counters; reads 1 until done. The buffers keep their pixels and the front one stays in front; a triangle or clear under way may stay half drawn. The other bits of the same write take effect after it.
         reset / with_reset: [1:1] bool,
         /// Interrupt when the FIFO's level falls to LOW_WATER.
         low_water_interrupt / with_low_water_interrupt: [8:8] bool,
@@ -131,62 +101,18 @@ word! {
     Errors {
         /// A packet of unknown kind, wrong length, with a reserved bit set or a box outside the screen. It was skipped by its length.
         bad_packet / with_bad_packet: [0:0] bool,
-        /// A word came while the FIFO was full; it was dropped.
+        /// A word came while the FIFO was full and the device disabled, or had waited at the full FIFO for 2^22 clocks of the bus, or came after such a one before the FIFO had space again; it was dropped.
         fifo_overflow / with_fifo_overflow: [1:1] bool,
     }
 }
 
-macro_rules! registers {
-    ($(
-        $(#[doc = $doc:literal])+
-        $offset:literal $name:ident $variant:ident $field:ident : $cell:ident $access:ident $reset:expr, $fields:expr;
-    )+) => {
-        /// The registers as they lie in memory.
-        ///
-        /// Never made: a [`MmioPort`](crate::MmioPort) points at the real one.
-        #[repr(C)]
-        pub struct RegisterBlock {
-            $($(#[doc = $doc])+ pub $field: $cell<u32>,)+
-        }
-
-        $(const _: () = assert!(core::mem::offset_of!(RegisterBlock, $field) == $offset, concat!("offset of ", stringify!($name)));)+
-
-        /// A register by name; the discriminant is its byte offset.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-        #[repr(usize)]
-        pub enum Register {
-            $($(#[doc = $doc])+ $variant = $offset,)+
-        }
-
-        impl Register {
-            /// All registers, by rising offset.
-            pub const ALL: &'static [Register] = &[$(Register::$variant),+];
-
-            /// Returns the register at a byte offset, if there is one.
-            pub fn at(offset: usize) -> Option<Self> {
-                Self::ALL.iter().copied().find(|register| *register as usize == offset)
-            }
-
-            /// Returns the register's row in the table.
-            pub fn info(self) -> &'static RegisterInfo {
-                &REGISTERS[self as usize / 4]
-            }
-        }
-
-        /// The register table, by rising offset.
-        pub const REGISTERS: &[RegisterInfo] = &[$(RegisterInfo {
-            name: stringify!($name),
-            offset: $offset,
-            access: Access::$access,
-            reset: $reset,
-            doc: concat!($($doc),+),
-            fields: $fields,
-        }),+];
-    };
-}
-
 registers! {
+    /// The registers as they lie in memory.
+    ///
+    /// Never made: a [`MmioPort`](crate::MmioPort) points at the real one.
+    RegisterBlock
+    /// A register by name; the discriminant is its byte offset.
+    Register REGISTERS;
     /// Identity: reads 0x48414C46, "HALF". Checked before anything else is touched.
     0x00 ID Id id: RO ReadOnly Some(ID_HALF), &[];
     /// Version of the contract.

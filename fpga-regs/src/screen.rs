@@ -27,6 +27,8 @@ pub const GUARD_BAND: i32 = (1 << 13) - 1;
 
 /// Fraction bits of depth and its steps in a packet (Q20.12).
 pub const DEPTH_FRACTION_BITS: u32 = 12;
+/// Fraction bits of a colour channel and its steps in a packet (Q9.12).
+pub const COLOUR_FRACTION_BITS: u32 = 12;
 /// The depth that a clear leaves, and the far plane.
 pub const DEPTH_FAR: u16 = u16::MAX;
 
@@ -71,6 +73,32 @@ const fn nearest_of_8(channel: u8) -> u32 {
     (channel as u32 * 225 + 4096) >> 13
 }
 
+/// The thresholds of ordered dithering, 0…15, by row and column modulo 4 ([Bayer 1973]'s matrix).
+///
+/// [Bayer 1973]: https://en.wikipedia.org/wiki/Ordered_dithering
+pub const DITHER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
+
+/// Returns the RGB332 colour that the device gives pixel (`x`, `y`) of a Gouraud triangle, from 8
+/// bits a channel.
+///
+/// A channel is scaled to 7/8 (blue to 3/4), the pixel's threshold added and the fraction dropped.
+/// So 0 stays 0 and 255 full scale whatever the threshold, and over 4×4 pixels of one colour the
+/// levels' mean is that colour to 1/16 of a level. Dropping the fraction alone, without
+/// thresholds, would show a smooth face as seven bands.
+#[inline(always)]
+pub const fn dithered([red, green, blue]: [u8; 3], x: u32, y: u32) -> Rgb332 {
+    let threshold = DITHER[(y & 3) as usize][(x & 3) as usize];
+    let (red, green) = (dithered_to_8(red, threshold), dithered_to_8(green, threshold));
+    let blue = (blue - (blue >> 2) + 4 * threshold + 2) >> 6;
+    Rgb332(red << 5 | green << 2 | blue)
+}
+
+/// Dithers a channel to 3 bits. The sum is at most 224 + 31, so it fits 8 bits.
+#[inline(always)]
+const fn dithered_to_8(channel: u8, threshold: u8) -> u8 {
+    (channel - (channel >> 3) + 2 * threshold + 1) >> 5
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,6 +115,28 @@ mod tests {
             assert_eq!(u32::from(got >> 2 & 7), closest(7), "green of {value}");
             assert_eq!(u32::from(got & 3), closest(3), "blue of {value}");
         }
+    }
+
+    #[test]
+    fn dithering_keeps_the_mean_and_the_ends() {
+        for value in 0..=255u8 {
+            let mut sums = [0u32; 3];
+            for (x, y) in (0..16).map(|index| (index % 4, index / 4)) {
+                let bits = dithered([value, value, value], 100 + x, 36 + y).0;
+                let levels = [bits >> 5, bits >> 2 & 7, bits & 3];
+                sums.iter_mut().zip(levels).for_each(|(sum, level)| *sum += u32::from(level));
+                if value == 0 || value == 255 {
+                    assert_eq!(bits, value, "at {x}, {y}");
+                }
+            }
+            for (sum, levels) in sums.into_iter().zip([7.0, 7.0, 3.0]) {
+                let (mean, exact) = (f64::from(sum) / 16.0, f64::from(value) * levels / 255.0);
+                assert!((mean - exact).abs() <= 1.0 / 16.0, "{value} comes out as {mean} of {levels}, not {exact}");
+            }
+        }
+        let mut thresholds = DITHER.concat();
+        thresholds.sort_unstable();
+        assert!(thresholds.iter().enumerate().all(|(index, threshold)| index == usize::from(*threshold)));
     }
 
     #[test]

@@ -4,10 +4,10 @@
 //! The reference tells for a pixel whether it sees the triangle ([`host_tests::visible_part`]).
 //! [`MARGIN`] pixels from its sides the picture must agree: what a vertex may be off by, in x and y.
 
-use fpga_regs::packet::{Clear, FlatTriangle};
+use fpga_regs::packet::{Clear, FlatTriangle, TriangleShape};
 use fpga_regs::registers::Register;
 use fpga_regs::screen::{DEPTH_FAR, GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
-use geometry::clip::clip;
+use geometry::clip::{Corner, clip};
 use geometry::mesh::Position;
 use geometry::transform::{Homogeneous, SMALLEST_W, doubled_guard_band};
 use geometry::{Culling, Winding};
@@ -103,7 +103,8 @@ fn draw(device: &mut Device<'_>, drawn: &[Drawn]) -> u32 {
     let before = count(device);
     for it in drawn {
         let zero = PacketDepth::ZERO;
-        let flat = FlatTriangle { depth: zero, depth_step_x: zero, depth_step_y: zero, ..it.triangle };
+        let shape = TriangleShape { depth: zero, depth_step_x: zero, depth_step_y: zero, ..it.triangle.shape };
+        let flat = FlatTriangle { shape, ..it.triangle };
         device.push(&flat.encode());
     }
     let after = count(device);
@@ -239,7 +240,7 @@ fn clipping_opens_no_cracks() {
         let faces = [[0, 1, 2], rng.pick(&[[0, 2, 3], [2, 0, 3]])];
         let (drawn, _) = draw_faces(&corners, &faces, Winding::CounterClockwise, &matrix.fixed, Culling::None);
         for (x, y) in pixels {
-            let count = drawn.iter().filter(|it| packet_pixels::covers(&it.triangle, x, y)).count();
+            let count = drawn.iter().filter(|it| packet_pixels::covers(&it.triangle.shape, x, y)).count();
             assert_eq!(count, 1, "{places:?}: pixel ({x}, {y}) on the shared edge, {clip:?}: {drawn:?}");
             along += 1;
         }
@@ -286,8 +287,9 @@ fn every_corner_that_clipping_leaves_is_inside_all_planes() {
             let z = if rng.once_in(3) { w / 2 + rng.within(-3, 3) } else { z };
             Homogeneous { x, y, z, w }
         });
-        for corner in clip(triangle).corners() {
-            let Homogeneous { x, y, z, w } = *corner;
+        for corner in clip(triangle.map(|at| Corner { at, colour: [7; 3] })).corners() {
+            let Corner { at: Homogeneous { x, y, z, w }, colour } = *corner;
+            assert_eq!(colour, [7; 3], "mixed of one colour");
             let guard = doubled_guard_band(w);
             let inside = w >= SMALLEST_W && z >= 0 && 2 * z <= w && 2 * x.abs() <= guard && 2 * y.abs() <= guard;
             assert!(inside, "{corner:?} is left of {triangle:?}, guard band {guard}");

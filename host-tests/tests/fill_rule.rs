@@ -62,7 +62,7 @@ fn exact_pixels(corners: [Point; 3]) -> Vec<(i32, i32)> {
 fn packet_pixels(triangle: Option<&FlatTriangle>) -> Vec<(i32, i32)> {
     let mut pixels = Vec::new();
     if let Some(triangle) = triangle {
-        packet_pixels::for_each(triangle, |x, y| pixels.push((x, y)));
+        packet_pixels::for_each(&triangle.shape, |x, y| pixels.push((x, y)));
     }
     pixels
 }
@@ -131,7 +131,7 @@ impl<'a, 'memory> Counting<'a, 'memory> {
         let before = self.device.read(Register::PixelsTested);
         self.device.push(&triangle.encode());
         let mut covered = 0;
-        packet_pixels::for_each(triangle, |x, y| {
+        packet_pixels::for_each(&triangle.shape, |x, y| {
             self.counts[(y * WIDTH as i32 + x) as usize] += 1;
             covered += 1;
         });

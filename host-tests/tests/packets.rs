@@ -1,7 +1,10 @@
 //! Every kind of packet, encoded by `fpga-regs` and taken by the model: its effect shows, a stream
 //! that is cut short says how much is missing, and no stream of words hangs the device.
 
-use fpga_regs::packet::{Clear, EdgeSteps, Fence, FlatTriangle, Header, Kind, Span, swap};
+use fpga_regs::packet::{
+    Channels, Clear, EdgeSteps, Fence, FlatTriangle, GouraudTriangle, Header, Kind, PixelMode, Span, TriangleShape,
+    swap,
+};
 use fpga_regs::registers::{Errors, Register};
 use fpga_regs::screen::{PIXELS, PacketDepth, Rgb332, WIDTH};
 use host_tests::lent::with_device;
@@ -12,20 +15,35 @@ use raster_model::Device;
 fn square(colour: u8) -> FlatTriangle {
     FlatTriangle {
         colour: Rgb332(colour),
-        columns: Span::new(10, 13),
-        rows: Span::new(20, 23),
-        edges: [0; 3],
-        steps: [EdgeSteps::new(0, 0); 2],
-        depth: PacketDepth::from_num(500),
-        depth_step_x: PacketDepth::ZERO,
-        depth_step_y: PacketDepth::ZERO,
+        mode: PixelMode::USUAL,
+        shape: TriangleShape {
+            columns: Span::new(10, 13),
+            rows: Span::new(20, 23),
+            edges: [0; 3],
+            steps: [EdgeSteps::new(0, 0); 2],
+            depth: PacketDepth::from_num(500),
+            depth_step_x: PacketDepth::ZERO,
+            depth_step_y: PacketDepth::ZERO,
+        },
     }
 }
 
-fn one_of_each() -> [Vec<u32>; 4] {
+/// As [`square`], of a colour that changes.
+fn shaded_square() -> GouraudTriangle {
+    GouraudTriangle {
+        colour: Channels([200 << 12, 100 << 12, 0]),
+        colour_step_x: Channels([1 << 12; 3]),
+        colour_step_y: Channels([0; 3]),
+        mode: PixelMode::USUAL,
+        shape: square(0).shape,
+    }
+}
+
+fn one_of_each() -> [Vec<u32>; 5] {
     [
         Clear { colour: Rgb332(9), depth: 1_000 }.encode().to_vec(),
         square(0xe3).encode().to_vec(),
+        shaded_square().encode().to_vec(),
         swap().to_vec(),
         Fence { tag: 77 }.encode().to_vec(),
     ]
@@ -71,13 +89,14 @@ fn an_edge_cuts_a_triangle_and_its_depth_runs_in_steps() {
         device.push(&Clear { colour: Rgb332(0), depth: 0xffff }.encode());
         // Inside where 1 − x + y ≥ 0; the third edge's steps are minus the others' sum.
         let steps = [EdgeSteps::new(-1, 1), EdgeSteps::new(1, -1)];
-        let triangle = FlatTriangle {
+        let shape = TriangleShape {
             edges: [1, 100, 0],
             steps,
             depth_step_x: PacketDepth::from_num(2),
             depth_step_y: PacketDepth::from_num(-0.5),
-            ..square(7)
+            ..square(7).shape
         };
+        let triangle = FlatTriangle { shape, ..square(7) };
         device.push(&triangle.encode());
         for y in 0..4usize {
             for x in 0..4usize {
@@ -126,7 +145,7 @@ fn the_sizes_of_the_pieces_do_not_matter() {
     for _ in 0..40 {
         let mut stream = Vec::new();
         for _ in 0..rng.within(1, 60) {
-            stream.extend(&one_of_each()[rng.below(4) as usize]);
+            stream.extend(&one_of_each()[rng.below(5) as usize]);
             if rng.once_in(10) {
                 // A bad packet in between, skipped by its length.
                 stream.extend([0x7703_0000, 1, 2, 3]);
@@ -164,7 +183,9 @@ fn each_bad_packet_is_counted_skipped_and_harmless() {
     ];
     for (columns, rows) in [((4, 3), (0, 0)), ((0, 320), (0, 0)), ((0, 0), (0, 240)), ((0, 0), (9, 8))] {
         let (columns, rows) = (Span::new(columns.0, columns.1), Span::new(rows.0, rows.1));
-        bad.push(FlatTriangle { columns, rows, ..square(1) }.encode().to_vec());
+        bad.push(
+            FlatTriangle { shape: TriangleShape { columns, rows, ..square(1).shape }, ..square(1) }.encode().to_vec(),
+        );
     }
     with_device(|device| {
         for (number, packet) in bad.iter().enumerate() {

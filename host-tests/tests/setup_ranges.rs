@@ -3,7 +3,7 @@
 //!
 //! The ranges are those of the table in `fpga_regs::packet`, written out again.
 
-use fpga_regs::packet::{FlatTriangle, Header, Packet};
+use fpga_regs::packet::{FlatTriangle, Header, Packet, TriangleShape};
 use fpga_regs::screen::{GUARD_BAND, HEIGHT, WIDTH};
 use geometry::ScreenVertex;
 use host_tests::collect::{set_up_either_way, vertex};
@@ -37,17 +37,17 @@ fn check_fields(triangle: &FlatTriangle, corners: &[ScreenVertex; 3], worst: &mu
     let words = triangle.encode();
     let decoded = Packet::decode(Header(words[0]), &words[1..]);
     assert_eq!(decoded, Ok(Packet::FlatTriangle(*triangle)), "{corners:?}");
-    let (columns, rows) = (triangle.columns, triangle.rows);
+    let TriangleShape { columns, rows, .. } = triangle.shape;
     assert!(columns.first() <= columns.last() && u32::from(columns.last()) < WIDTH, "{corners:?}: {triangle:?}");
     assert!(rows.first() <= rows.last() && u32::from(rows.last()) < HEIGHT, "{corners:?}: {triangle:?}");
-    for (step_x, step_y) in triangle.all_steps() {
+    for (step_x, step_y) in triangle.shape.all_steps() {
         worst.step = worst.step.max(step_x.abs()).max(step_y.abs());
         assert!(step_x.abs() <= STEP_MAX && step_y.abs() <= STEP_MAX, "{corners:?}: {triangle:?}");
     }
     // Linear functions are greatest in the box's corners.
     for x in [columns.first(), columns.last()].map(i32::from) {
         for y in [rows.first(), rows.last()].map(i32::from) {
-            for edge in edges_at(triangle, x, y) {
+            for edge in edges_at(&triangle.shape, x, y) {
                 worst.edge = worst.edge.max(edge.abs());
                 assert!(edge.abs() <= EDGE_MAX, "{corners:?} at ({x}, {y}): {triangle:?}");
             }
@@ -57,7 +57,7 @@ fn check_fields(triangle: &FlatTriangle, corners: &[ScreenVertex; 3], worst: &mu
 }
 
 fn check_depth(triangle: &FlatTriangle, corners: &[ScreenVertex; 3], (x, y): (i32, i32), worst: &mut Worst) {
-    let found = depth_at(triangle, x, y) >> 12;
+    let found = depth_at(&triangle.shape, x, y) >> 12;
     worst.depth_low = worst.depth_low.min(found);
     worst.depth_high = worst.depth_high.max(found - 65_535);
     assert!((-1..=65_536).contains(&found), "{corners:?}: depth {found} at ({x}, {y}): {triangle:?}");
@@ -74,11 +74,12 @@ fn check_depth(triangle: &FlatTriangle, corners: &[ScreenVertex; 3], (x, y): (i3
 fn check(corners: [ScreenVertex; 3], row_step: usize, worst: &mut Worst) {
     let Some(triangle) = set_up_either_way(corners) else { return };
     check_fields(&triangle, &corners, worst);
-    let columns = i32::from(triangle.columns.first())..=i32::from(triangle.columns.last());
-    for y in (i32::from(triangle.rows.first())..=i32::from(triangle.rows.last())).step_by(row_step) {
+    let TriangleShape { columns, rows, .. } = triangle.shape;
+    let columns = i32::from(columns.first())..=i32::from(columns.last());
+    for y in (i32::from(rows.first())..=i32::from(rows.last())).step_by(row_step) {
         // Depth is linear in a row, so it is farthest off at an end.
-        let left = columns.clone().find(|x| covers(&triangle, *x, y));
-        let right = columns.clone().rev().find(|x| covers(&triangle, *x, y));
+        let left = columns.clone().find(|x| covers(&triangle.shape, *x, y));
+        let right = columns.clone().rev().find(|x| covers(&triangle.shape, *x, y));
         for x in [left, right].into_iter().flatten() {
             check_depth(&triangle, &corners, (x, y), worst);
         }

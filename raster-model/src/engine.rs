@@ -1,12 +1,13 @@
 //! What each packet does.
 
 use fpga_regs::Counters;
-use fpga_regs::packet::{Clear, Packet};
+use fpga_regs::packet::{Clear, Packet, PixelMode, TriangleShape};
 use fpga_regs::registers::{Errors, Interrupts};
 
 use crate::decoder::Decoder;
 use crate::memory::Memory;
-use crate::triangle;
+use crate::paint::{DepthGrey, Paint, Planes};
+use crate::triangle::{self, Nothing};
 
 /// The device behind its FIFO: takes words, draws, counts and raises flags.
 pub(crate) struct Engine<'a> {
@@ -60,22 +61,17 @@ impl<'a> Engine<'a> {
     }
 
     fn execute(&mut self, packet: &Packet) {
-        let counters = &mut self.counters;
         match packet {
             Packet::Clear(Clear { colour, depth }) => {
                 let (colours, depths) = self.memory.target();
                 colours.fill(colour.0);
                 depths.fill(*depth);
             }
-            Packet::FlatTriangle(triangle) => {
-                let (colours, depths) = self.memory.target();
-                let pixels = triangle::draw(triangle, colours, depths);
-                counters.triangles = counters.triangles.wrapping_add(1);
-                counters.pixels_tested = counters.pixels_tested.wrapping_add(pixels.tested);
-                counters.pixels_written = counters.pixels_written.wrapping_add(pixels.written);
-            }
+            Packet::FlatTriangle(triangle) => self.draw(&triangle.shape, triangle.colour, triangle.mode),
+            Packet::GouraudTriangle(triangle) => self.draw(&triangle.shape, Planes::from(triangle), triangle.mode),
             Packet::Swap => {
                 self.memory.swap();
+                let counters = &mut self.counters;
                 counters.frames_shown = counters.frames_shown.wrapping_add(1);
                 self.interrupts = self.interrupts.with_swap(true);
             }
@@ -84,5 +80,20 @@ impl<'a> Engine<'a> {
                 self.interrupts = self.interrupts.with_fence(true);
             }
         }
+    }
+
+    fn draw(&mut self, shape: &TriangleShape, paint: impl Paint, mode: PixelMode) {
+        let (colours, depths) = self.memory.target();
+        let pixels = if mode == PixelMode::USUAL {
+            triangle::draw(shape, paint, Nothing, colours, depths)
+        } else if mode.depth_grey {
+            triangle::draw(shape, DepthGrey, mode, colours, depths)
+        } else {
+            triangle::draw(shape, paint, mode, colours, depths)
+        };
+        let counters = &mut self.counters;
+        counters.triangles = counters.triangles.wrapping_add(1);
+        counters.pixels_tested = counters.pixels_tested.wrapping_add(pixels.tested);
+        counters.pixels_written = counters.pixels_written.wrapping_add(pixels.written);
     }
 }

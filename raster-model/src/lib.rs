@@ -9,6 +9,7 @@
 //! | `engine` | what each packet does |
 //! | `fifo` | the words that wait while the device is disabled |
 //! | `triangle` | which pixels a triangle changes |
+//! | `paint` | the colour of each of them |
 //! | `crossing` | where an edge cuts a row, without division |
 //! | [`checksum`] | [`picture_checksum`]: one number that names a picture |
 //!
@@ -27,6 +28,7 @@ pub mod device;
 mod engine;
 mod fifo;
 pub mod memory;
+mod paint;
 mod triangle;
 
 pub use checksum::picture_checksum;

@@ -3,9 +3,9 @@
 //! Clocks of a simulation repeat exactly.
 
 use fpga_regs::Port;
-use fpga_regs::packet::{Clear, FlatTriangle};
+use fpga_regs::packet::{Channels, Clear, FlatTriangle, GouraudTriangle};
 use fpga_regs::registers::{Control, Register};
-use fpga_regs::screen::{DEPTH_FAR, HEIGHT, PIXELS, Rgb332, WIDTH};
+use fpga_regs::screen::{COLOUR_FRACTION_BITS, DEPTH_FAR, HEIGHT, PIXELS, Rgb332, WIDTH};
 use serde::Serialize;
 
 use crate::rtl::Rtl;
@@ -83,9 +83,11 @@ pub fn measure(units: u32) -> Vec<Figure> {
     let mut rtl = Rtl::new(units);
     rtl.write(Register::Control, Control::default().with_enable(true).0);
     let clear = clocks_for(&mut rtl, &Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode());
-    let full_screen = full_screen_pixels_per_clock(&mut rtl);
-    let [clocks_50, tiles_50] = per_triangle(&mut rtl, 50);
-    let [clocks_10, tiles_10] = per_triangle(&mut rtl, 10);
+    let full_screen = full_screen_pixels_per_clock(&mut rtl, flat);
+    let full_screen_gouraud = full_screen_pixels_per_clock(&mut rtl, gouraud);
+    let [clocks_50, tiles_50] = per_triangle(&mut rtl, 50, flat);
+    let [clocks_10, tiles_10] = per_triangle(&mut rtl, 10, flat);
+    let [clocks_10_gouraud, _] = per_triangle(&mut rtl, 10, gouraud);
     let figure = |name, value: f64, unit, better, bar| {
         // Thousandths tell enough.
         let value = (value * 1000.0).round() / 1000.0;
@@ -100,10 +102,18 @@ pub fn measure(units: u32) -> Vec<Figure> {
             Better::Higher,
             Some(bars.full_screen_pixels_per_clock),
         ),
+        figure(
+            "full_screen_gouraud_pixels_per_clock",
+            full_screen_gouraud,
+            "pixels/clock",
+            Better::Higher,
+            Some(bars.full_screen_pixels_per_clock),
+        ),
         lower("clocks_per_50px_triangle", clocks_50, "clocks", Some(bars.clocks_per_50px_triangle)),
         lower("tiles_per_50px_triangle", tiles_50, "tiles", None),
         lower("clocks_per_10px_triangle", clocks_10, "clocks", Some(bars.clocks_per_10px_triangle)),
         lower("tiles_per_10px_triangle", tiles_10, "tiles", None),
+        lower("clocks_per_10px_gouraud_triangle", clocks_10_gouraud, "clocks", None),
         lower("clear_clocks", clear as f64, "clocks", Some(bars.clear_clocks)),
     ]
 }
@@ -117,14 +127,16 @@ fn clocks_for(rtl: &mut Rtl, words: &[u32]) -> u64 {
 }
 
 /// Draws layers of two triangles that share the screen's diagonal, each nearer than the last.
-fn full_screen_pixels_per_clock(rtl: &mut Rtl) -> f64 {
+fn full_screen_pixels_per_clock(rtl: &mut Rtl, packet: fn(FlatTriangle) -> Vec<u32>) -> f64 {
+    rtl.push(&Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode());
+    rtl.rest(PATIENCE);
     let (right, bottom) = (WIDTH as i32 * 16, HEIGHT as i32 * 16);
     let mut words = Vec::new();
     for layer in 0..LAYERS {
         let depth = 60_000 - layer * 1000;
         let corners = [[0, 0, depth], [right, 0, depth], [right, bottom, depth], [0, bottom, depth]];
         for vertices in [[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]] {
-            words.extend(triangle(vertices, layer as u8, false).expect("on the screen").encode());
+            words.extend(packet(triangle(vertices, layer as u8, false).expect("on the screen")));
         }
     }
     let before = rtl.read(Register::PixelsWritten);
@@ -135,21 +147,38 @@ fn full_screen_pixels_per_clock(rtl: &mut Rtl) -> f64 {
 }
 
 /// Returns clocks and visited tiles for a triangle of `pixels` pixels of area.
-fn per_triangle(rtl: &mut Rtl, pixels: i32) -> [f64; 2] {
-    let words = sized_triangles(pixels, TRIANGLES);
+fn per_triangle(rtl: &mut Rtl, pixels: i32, packet: fn(FlatTriangle) -> Vec<u32>) -> [f64; 2] {
+    let words: Vec<u32> = sized_triangles(pixels, TRIANGLES).into_iter().flat_map(packet).collect();
     let tiles = rtl.tiles();
     let clocks = clocks_for(rtl, &words);
     [clocks, rtl.tiles() - tiles].map(|sum| sum as f64 / TRIANGLES as f64)
 }
 
-/// Returns the packets of `count` triangles of `pixels` pixels of area, of random orientation.
-fn sized_triangles(pixels: i32, count: usize) -> Vec<u32> {
+fn flat(triangle: FlatTriangle) -> Vec<u32> {
+    triangle.encode().to_vec()
+}
+
+/// A triangle of the same shape whose colour changes.
+fn gouraud(FlatTriangle { mode, shape, .. }: FlatTriangle) -> Vec<u32> {
+    let channels = |step: i32| Channels([step; 3]);
+    let triangle = GouraudTriangle {
+        colour: channels(128 << COLOUR_FRACTION_BITS),
+        colour_step_x: channels(700),
+        colour_step_y: channels(-500),
+        mode,
+        shape,
+    };
+    triangle.encode().to_vec()
+}
+
+/// Returns `count` triangles of `pixels` pixels of area, of random orientation.
+fn sized_triangles(pixels: i32, count: usize) -> Vec<FlatTriangle> {
     let mut random = Random::new(pixels as u64);
-    let mut words = Vec::new();
+    let mut triangles = Vec::new();
     // Twice the area in square sixteenths, within 2 %.
     let goal = 2 * pixels * 256;
     let reach = 16 * 3 * (f64::from(pixels)).sqrt() as i32 / 2;
-    while words.len() < count * FlatTriangle::WORDS {
+    while triangles.len() < count {
         let (x, y) = (random.within(800, 4300), random.within(800, 3000));
         let mut vertex =
             || [x + random.within(-reach, reach), y + random.within(-reach, reach), random.within(0, 65535)];
@@ -158,7 +187,7 @@ fn sized_triangles(pixels: i32, count: usize) -> Vec<u32> {
         if (area.abs() - goal).abs() > goal / 50 {
             continue;
         }
-        words.extend(triangle(v, 0xe0, false).into_iter().flat_map(|triangle| triangle.encode()));
+        triangles.extend(triangle(v, 0xe0, false));
     }
-    words
+    triangles
 }

@@ -4,8 +4,8 @@ mod common;
 
 use common::pair::Pair;
 use common::random::Random;
-use common::shapes::{any_triangle, garbage_triangle, garbage_words};
-use fpga_regs::packet::{Clear, Fence, swap};
+use common::shapes::{any_gouraud_triangle, any_triangle, garbage_triangle, garbage_words};
+use fpga_regs::packet::{Clear, Fence, FlatTriangle, TriangleShape, swap};
 use fpga_regs::registers::{Control, Register};
 use fpga_regs::screen::Rgb332;
 
@@ -40,18 +40,30 @@ fn streams(units: u32) {
                 4..8 => words.extend(Fence { tag: random.word() }.encode()),
                 8..12 => words.extend(garbage_words(&mut random)),
                 12..32 => {
-                    words.extend(garbage_triangle(&mut random));
+                    let garbage = garbage_triangle(&mut random);
+                    if random.one_in(2) {
+                        words.extend(garbage);
+                    } else {
+                        // The colours stand before the words that all triangles end with; the spare bits stay 0.
+                        let gouraud = any_gouraud_triangle(&mut random).encode();
+                        words.extend(&gouraud[..gouraud.len() - TriangleShape::WORDS]);
+                        words.extend(&garbage[1..]);
+                    }
                     drawn += 1;
                 }
                 // Again and again at one place, which only forwarding gets right.
                 32..42 => {
                     let triangle = any_triangle(&mut random);
                     for _ in 0..4 {
-                        let depth = triangle.depth.wrapping_add(fixed_depth(random.within(-4, 4)));
-                        let again = fpga_regs::packet::FlatTriangle { depth, ..triangle };
+                        let depth = triangle.shape.depth.wrapping_add(fixed_depth(random.within(-4, 4)));
+                        let again = FlatTriangle { shape: TriangleShape { depth, ..triangle.shape }, ..triangle };
                         words.extend(again.with_colour(Rgb332(random.word() as u8)).encode());
                         drawn += 1;
                     }
+                }
+                42..200 => {
+                    words.extend(any_gouraud_triangle(&mut random).encode());
+                    drawn += 1;
                 }
                 _ => {
                     words.extend(any_triangle(&mut random).encode());

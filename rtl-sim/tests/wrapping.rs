@@ -5,7 +5,7 @@ mod common;
 
 use common::pair::Pair;
 use common::random::Random;
-use fpga_regs::packet::{Clear, EdgeSteps, FlatTriangle, Span};
+use fpga_regs::packet::{Clear, EdgeSteps, FlatTriangle, PixelMode, Span, TriangleShape};
 use fpga_regs::screen::{DEPTH_FAR, HEIGHT, PacketDepth, Rgb332, WIDTH};
 use rtl_sim::UNITS;
 
@@ -24,8 +24,7 @@ fn wrapping(random: &mut Random) -> FlatTriangle {
     let distance = random.within(0, 1 << 20);
     edges[random.within(0, 2) as usize] = if random.one_in(2) { i32::MIN + distance } else { i32::MAX - distance };
     let depth = |value| PacketDepth::from_bits(value);
-    FlatTriangle {
-        colour: Rgb332(random.word() as u8),
+    let shape = TriangleShape {
         columns,
         rows,
         edges,
@@ -33,7 +32,8 @@ fn wrapping(random: &mut Random) -> FlatTriangle {
         depth: depth(random.within(0, 60_000 << 12)),
         depth_step_x: depth(random.within(-4096, 4096)),
         depth_step_y: depth(random.within(-4096, 4096)),
-    }
+    };
+    FlatTriangle { colour: Rgb332(random.word() as u8), mode: PixelMode::USUAL, shape }
 }
 
 #[test]

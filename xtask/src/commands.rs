@@ -1,9 +1,11 @@
 //! One file per command; each has a `run` that takes the command's flags.
 
+pub mod area;
 pub mod bench;
 pub mod decode;
 pub mod demo;
 pub mod generate;
+pub mod pad;
 pub mod render;
 pub mod replay;
 pub mod run;

@@ -1,6 +1,7 @@
 //! The files that are written from one source and committed: the contract's reference page, its
-//! SystemVerilog package, the plate that the firmware shows, and the demonstration's session.
+//! SystemVerilog packages, the plate that the firmware shows, and the demonstration's session.
 
+mod board_package;
 mod plate;
 mod reference_page;
 mod rtl_package;
@@ -46,6 +47,7 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
     Ok(vec![
         GeneratedFile { path: "docs/registers.md", text: reference_page::text() },
         GeneratedFile { path: "rtl/halfspace_pkg.sv", text: rtl_package::text() },
+        GeneratedFile { path: "fpga/board_io_pkg.sv", text: board_package::text() },
         GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
     ])

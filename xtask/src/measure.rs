@@ -10,7 +10,9 @@ use fixed::types::{I4F28, I32F32};
 use fpga_regs::packet::{Clear, FlatTriangle};
 use fpga_regs::registers::{Control, Register};
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
-use geometry::{Culling, Face, FaceLight, Matrix, Mesh, ScreenTransform, ScreenVertex, Sink, Transformed, Winding};
+use geometry::{
+    Culling, Drawn, Face, Matrix, Mesh, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Winding,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::machine::{Link, Machine};
@@ -53,7 +55,8 @@ pub enum Better {
 }
 
 impl Measurement {
-    fn new(name: &str, value: f64, unit: &str) -> Self {
+    /// Returns a figure without a bar, rounded to hundredths; less is better.
+    pub fn new(name: &str, value: f64, unit: &str) -> Self {
         let value = (value * 100.0).round() / 100.0;
         Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower }
     }
@@ -105,10 +108,10 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
 pub fn on_host() -> anyhow::Result<Vec<Measurement>> {
     let mut mesh_memory = Box::<MeshMemory>::default();
     let meshes = Meshes::new(&mut mesh_memory)?;
-    let mesh = meshes.of(Scene::Torus);
+    let mesh = &meshes.of(Scene::Torus).mesh;
     let view = Viewer::new(Scene::Torus).view(&Controls::new(Config::default()).state());
     let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let light = FaceLight::new(&view.light, &view.model);
+    let light = ObjectLight::new(&view.light, &view.model);
     let mut cache = vec![ScreenVertex::default(); MAX_VERTICES];
     let mut words = Words { buffer: vec![0; 2 * mesh.faces().len() * FlatTriangle::WORDS], used: 0 };
 
@@ -157,7 +160,7 @@ fn screens() -> anyhow::Result<Vec<u32>> {
     for screen in 0..SCREENS {
         let nearer = I32F32::from_num(SCREENS / 2 - screen) / i64::from(SCREENS);
         let transform = ScreenTransform::new(&Matrix::translation([I32F32::ZERO, I32F32::ZERO, nearer]), &mesh);
-        Transformed::new(&mesh, &transform, &mut cache)?.draw(&FaceLight::FULL, Culling::BackFaces, &mut words);
+        Transformed::new(&mesh, &transform, &mut cache)?.draw(&ObjectLight::FULL, Culling::BackFaces, &mut words);
     }
     let clear = Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode();
     Ok([&clear[..], &words.buffer[..words.used]].concat())
@@ -170,12 +173,12 @@ struct Words {
 }
 
 impl Sink for Words {
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
         self.buffer[self.used..].first_chunk_mut()
     }
 
-    fn take(&mut self, _: [&ScreenVertex; 3], _: [u8; 3]) {
-        self.used += FlatTriangle::WORDS;
+    fn take<const N: usize>(&mut self, _: Drawn<'_>) {
+        self.used += N;
     }
 }
 

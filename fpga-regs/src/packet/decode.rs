@@ -1,7 +1,9 @@
 //! From words to packets.
 
-use super::{BadPacket, Clear, ClearDepth, EdgeSteps, Fence, FlatTriangle, Header, Kind, Span};
-use crate::screen::{HEIGHT, PacketDepth, Rgb332, WIDTH};
+use super::{
+    BadPacket, Channels, Clear, ClearDepth, Fence, FlatTriangle, GouraudTriangle, Header, Kind, TriangleShape,
+};
+use crate::screen::Rgb332;
 
 /// A packet, decoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,6 +12,8 @@ pub enum Packet {
     Clear(Clear),
     /// Draw a flat triangle.
     FlatTriangle(FlatTriangle),
+    /// Draw a triangle whose colour changes from corner to corner.
+    GouraudTriangle(GouraudTriangle),
     /// Show the back buffer.
     Swap,
     /// Pass a tag.
@@ -18,7 +22,7 @@ pub enum Packet {
 
 impl Packet {
     /// Words of the longest packet that is not bad.
-    pub const MAX_WORDS: usize = FlatTriangle::WORDS;
+    pub const MAX_WORDS: usize = GouraudTriangle::WORDS;
 
     /// Returns the packet that a header and the words behind it make.
     ///
@@ -27,7 +31,7 @@ impl Packet {
     /// is [`BadPacket::Length`].
     pub fn decode(header: Header, payload: &[u32]) -> Result<Self, BadPacket> {
         let kind = header.check()?;
-        let colour = Rgb332(header.colour());
+        let (colour, mode) = (Rgb332(header.colour()), header.mode());
         match (kind, payload) {
             (Kind::Clear, &[depth]) => {
                 let depth = ClearDepth(depth);
@@ -36,24 +40,18 @@ impl Packet {
                 }
                 Ok(Packet::Clear(Clear { colour, depth: depth.depth() }))
             }
-            (
-                Kind::FlatTriangle,
-                &[columns, rows, edge0, edge1, edge2, steps0, steps1, depth, depth_step_x, depth_step_y],
-            ) => {
-                let (columns, rows) = (Span(columns), Span(rows));
-                if !columns.is_within(WIDTH) || !rows.is_within(HEIGHT) {
-                    return Err(BadPacket::Box);
-                }
-                let depth_from = |word: u32| PacketDepth::from_bits(word as i32);
-                Ok(Packet::FlatTriangle(FlatTriangle {
-                    colour,
-                    columns,
-                    rows,
-                    edges: [edge0 as i32, edge1 as i32, edge2 as i32],
-                    steps: [EdgeSteps(steps0), EdgeSteps(steps1)],
-                    depth: depth_from(depth),
-                    depth_step_x: depth_from(depth_step_x),
-                    depth_step_y: depth_from(depth_step_y),
+            (Kind::FlatTriangle, words) => {
+                let shape = words.try_into().map_err(|_| BadPacket::Length)?;
+                Ok(Packet::FlatTriangle(FlatTriangle { colour, mode, shape: TriangleShape::decode(shape)? }))
+            }
+            (Kind::GouraudTriangle, &[low, high, x_low, x_high, y_low, y_high, ref shape @ ..]) => {
+                let shape = shape.try_into().map_err(|_| BadPacket::Length)?;
+                Ok(Packet::GouraudTriangle(GouraudTriangle {
+                    colour: Channels::decode([low, high])?,
+                    colour_step_x: Channels::decode([x_low, x_high])?,
+                    colour_step_y: Channels::decode([y_low, y_high])?,
+                    mode,
+                    shape: TriangleShape::decode(shape)?,
                 }))
             }
             (Kind::Swap, &[]) => Ok(Packet::Swap),

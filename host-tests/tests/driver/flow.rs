@@ -18,7 +18,7 @@ fn status_is_read_once_a_refill() {
     assert!(matches!(journal[1], Access::Read(Register::Status, 1024)), "{:?}", journal[1]);
     // The FIFO is full: the next word finds none free, waits, and finds what has drained.
     renderer.push(&[7]).expect("it drains");
-    let clear = Access::Write(Register::Interrupts, Interrupts::default().with_low_water(true).0);
+    let clear = Access::Write(Register::Interrupts, EVERY_INTERRUPT);
     let expected = [
         clear.clone(),
         Access::Read(Register::Status, 0),

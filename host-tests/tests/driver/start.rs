@@ -13,7 +13,7 @@ fn the_start_is_this_and_nothing_else() {
     let screen = HEIGHT << 16 | WIDTH;
     let capabilities = 1 << 24 | 1 << 16 | 1024;
     Renderer::new(mock.clone(), mock.clone(), Timeouts::default()).expect("the device is as it should be");
-    // Reset is bit 1; enable bit 0, low-water interrupt bit 8, fence interrupt bit 10.
+    // Reset is bit 1; enable bit 0, the four interrupts bits 8 to 11.
     let expected = [
         Access::Configured,
         Access::Read(Register::Id, ID_HALF),
@@ -23,7 +23,7 @@ fn the_start_is_this_and_nothing_else() {
         Access::Write(Register::Control, 0x002),
         Access::Read(Register::Control, 0),
         Access::Write(Register::LowWater, 512),
-        Access::Write(Register::Control, 0x501),
+        Access::Write(Register::Control, 0xF01),
     ];
     assert_eq!(*mock.journal(), expected);
 }

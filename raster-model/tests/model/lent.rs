@@ -5,7 +5,7 @@ use fpga_regs::screen::PIXELS;
 use raster_model::{Device, Memory};
 
 /// Words of the FIFO that tests lend.
-pub const FIFO_WORDS: usize = 32;
+pub const FIFO_WORDS: usize = 40;
 
 /// Buffers for one device.
 pub struct Lent {

@@ -27,9 +27,9 @@ fn registers_start_as_the_table_says() {
             assert_eq!(device.read(*register), reset, "{}", register.info().name);
         }
     }
-    assert_eq!(device.read(Register::Capabilities), 32 | 1 << 16);
+    assert_eq!(device.read(Register::Capabilities), 40 | 1 << 16);
     assert_eq!(device.read(Register::Screen), 320 | 240 << 16);
-    assert_eq!(device.read(Register::Status), 32 | 1 << 18);
+    assert_eq!(device.read(Register::Status), 40 | 1 << 18);
     let device = device.with_interrupt(true);
     assert!(Capabilities(device.read(Register::Capabilities)).interrupt());
 }
@@ -113,8 +113,8 @@ fn a_disabled_device_keeps_words_and_drops_those_that_do_not_fit() {
     let clear = Clear { colour: Rgb332(9), depth: 1 }.encode();
     device.push(&clear);
     assert_eq!(device.back()[0], 0, "nothing is drawn");
-    assert_eq!((status(&device).fifo_free(), status(&device).busy(), status(&device).mid_packet()), (30, true, false));
-    device.push(&[swap()[0]; 29]);
+    assert_eq!((status(&device).fifo_free(), status(&device).busy(), status(&device).mid_packet()), (38, true, false));
+    device.push(&[swap()[0]; 37]);
     assert_eq!(device.read(Register::Errors), 0);
     // One fits, two do not; what comes later does not fit either.
     device.push(&[swap()[0], swap()[0], 0]);
@@ -125,9 +125,9 @@ fn a_disabled_device_keeps_words_and_drops_those_that_do_not_fit() {
 
     device.write(Register::Control, ENABLE);
     let counters = device.counters();
-    assert_eq!((counters.frames_shown, counters.bad_packets), (30, 0));
+    assert_eq!((counters.frames_shown, counters.bad_packets), (38, 0));
     assert_eq!(device.back()[0], 9);
-    assert_eq!((status(&device).fifo_free(), status(&device).busy()), (32, false));
+    assert_eq!((status(&device).fifo_free(), status(&device).busy()), (40, false));
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn a_reset_forgets_all_but_the_buffers() {
     device.write(Register::Control, !ENABLE);
     assert_eq!(device.read(Register::Control), 0xf00, "reset reads 0, what has no meaning too");
     assert_eq!(device.mid_packet(), None);
-    assert_eq!(device.read(Register::Status), 32 | 1 << 17 | 1 << 18, "buffer 1 still shows");
+    assert_eq!(device.read(Register::Status), 40 | 1 << 17 | 1 << 18, "buffer 1 still shows");
     for register in Register::ALL.iter().filter(|register| **register != Register::Control) {
         if let Some(reset) = register.info().reset {
             assert_eq!(device.read(*register), reset, "{}", register.info().name);

@@ -1,6 +1,6 @@
 //! Triangle setup for tests: in 64 bits and floating point, so that it needs no cleverness.
 
-use fpga_regs::packet::{EdgeSteps, FlatTriangle, Span};
+use fpga_regs::packet::{EdgeSteps, FlatTriangle, PixelMode, Span, TriangleShape};
 use fpga_regs::screen::{HEIGHT, PacketDepth, Rgb332, SUBPIXEL, WIDTH};
 
 /// A vertex: x and y in sixteenths of a pixel within the guard band, depth 0…65,535.
@@ -41,13 +41,16 @@ pub fn set_up(mut vertices: [Vertex; 3], colour: u8) -> Option<FlatTriangle> {
     let modular = |value: f64| PacketDepth::from_bits((value * 4096.0).round() as i64 as i32);
     Some(FlatTriangle {
         colour: Rgb332(colour),
-        columns,
-        rows,
-        edges: edges.map(|edge| edge.0),
-        steps: [edges[0].1, edges[1].1],
-        depth: modular(depth),
-        depth_step_x: modular(step_x),
-        depth_step_y: modular(step_y),
+        mode: PixelMode::USUAL,
+        shape: TriangleShape {
+            columns,
+            rows,
+            edges: edges.map(|edge| edge.0),
+            steps: [edges[0].1, edges[1].1],
+            depth: modular(depth),
+            depth_step_x: modular(step_x),
+            depth_step_y: modular(step_y),
+        },
     })
 }
 

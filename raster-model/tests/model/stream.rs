@@ -1,6 +1,8 @@
 //! Words in any pieces: good packets, bad ones, garbage, streams that end too early.
 
-use fpga_regs::packet::{BadPacket, Clear, Fence, FlatTriangle, Header, Kind, Packet, swap};
+use fpga_regs::packet::{
+    BadPacket, Channels, Clear, Fence, FlatTriangle, GouraudTriangle, Header, Kind, Packet, PixelMode, swap,
+};
 use fpga_regs::registers::{Control, Errors, Interrupts, Register, Status};
 use fpga_regs::screen::Rgb332;
 use raster_model::{Device, MidPacket};
@@ -37,6 +39,23 @@ fn every_kind_of_packet_does_what_it_says() {
                 assert_eq!(device.counters().pixels_written, 190);
                 assert_eq!((device.back()[0], device.depth()[0]), (0x77, 10));
             }
+            Kind::GouraudTriangle => {
+                let level = |value: i32| Channels([value << 12; 3]);
+                let packet = GouraudTriangle {
+                    colour: level(255),
+                    // Below zero in column 2.
+                    colour_step_x: level(-130),
+                    colour_step_y: level(0),
+                    mode: PixelMode::USUAL,
+                    shape: triangle(0).shape,
+                };
+                device.push(&packet.encode());
+                assert_eq!(device.counters().pixels_written, 190);
+                // 255 is full scale and less than 0 is 0 whatever the threshold; 125 is 110 of 224 and 94 of
+                // 192: with threshold 8, (110 + 17) / 32 = 3 and (94 + 34) / 64 = 2.
+                assert_eq!(device.back()[..3], [0xff, 3 << 5 | 3 << 2 | 2, 0]);
+                assert_eq!(device.depth()[0], 10);
+            }
             Kind::Swap => {
                 device.push(&swap());
                 assert_eq!((device.front()[0], device.back()[0]), (1, 0));
@@ -68,10 +87,21 @@ fn bad_packets() -> Vec<(BadPacket, Vec<u32>)> {
         words[index] = word;
         words
     };
+    let gouraud = |index: usize, word: u32| {
+        let mut words = [&[0x0310_0000, 0, 0, 0, 0, 0, 0], &triangle(0).encode()[1..]].concat();
+        words[index] = word;
+        words
+    };
     vec![
         (BadPacket::Kind, with_header(0)),
         (BadPacket::Kind, with_header(0xffff_ffff)),
-        (BadPacket::Kind, with_header(0x0307_0000)),
+        (BadPacket::Kind, with_header(0x0407_0000)),
+        (BadPacket::Length, with_header(0x030a_0000)),
+        (BadPacket::Reserved, with_header(0x0310_0001)),
+        (BadPacket::Reserved, gouraud(2, 1 << 31)),
+        (BadPacket::Reserved, gouraud(4, !0)),
+        (BadPacket::Reserved, gouraud(6, 1 << 31)),
+        (BadPacket::Box, gouraud(7, 320 << 16)),
         (BadPacket::Length, with_header(0x0100_0000)),
         (BadPacket::Length, with_header(0x0209_0000)),
         (BadPacket::Length, with_header(0x02ff_0000)),

@@ -1,6 +1,8 @@
 //! Which pixels a triangle changes.
 
-use fpga_regs::packet::{Clear, EdgeSteps, FlatTriangle, Packet, Span, swap};
+use fpga_regs::packet::{
+    Channels, Clear, EdgeSteps, FlatTriangle, GouraudTriangle, Packet, PixelMode, Span, TriangleShape, swap,
+};
 use fpga_regs::screen::{DEPTH_FAR, GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
 use raster_model::Device;
 
@@ -15,13 +17,16 @@ const CLEAR: Clear = Clear { colour: Rgb332(0), depth: DEPTH_FAR };
 fn strip(columns: u16, depth: i32, depth_step_x: i32) -> FlatTriangle {
     FlatTriangle {
         colour: Rgb332(7),
-        columns: Span::new(0, columns - 1),
-        rows: Span::new(0, 0),
-        edges: [0; 3],
-        steps: [EdgeSteps::new(0, 0); 2],
-        depth: PacketDepth::from_bits(depth),
-        depth_step_x: PacketDepth::from_bits(depth_step_x),
-        depth_step_y: PacketDepth::from_bits(0),
+        mode: PixelMode::USUAL,
+        shape: TriangleShape {
+            columns: Span::new(0, columns - 1),
+            rows: Span::new(0, 0),
+            edges: [0; 3],
+            steps: [EdgeSteps::new(0, 0); 2],
+            depth: PacketDepth::from_bits(depth),
+            depth_step_x: PacketDepth::from_bits(depth_step_x),
+            depth_step_y: PacketDepth::from_bits(0),
+        },
     }
 }
 
@@ -41,13 +46,16 @@ fn pattern(device: &Device<'_>) -> Vec<String> {
 fn a_small_triangle_covers_the_pixels_that_the_definition_enumerates() {
     let triangle = FlatTriangle {
         colour: Rgb332(0xe3),
-        columns: Span::new(10, 14),
-        rows: Span::new(20, 23),
-        edges: [-1, 1, 5],
-        steps: [EdgeSteps::new(1, 0), EdgeSteps::new(-1, 2)],
-        depth: PacketDepth::from_num(100),
-        depth_step_x: PacketDepth::from_num(1.5),
-        depth_step_y: PacketDepth::from_num(-10),
+        mode: PixelMode::USUAL,
+        shape: TriangleShape {
+            columns: Span::new(10, 14),
+            rows: Span::new(20, 23),
+            edges: [-1, 1, 5],
+            steps: [EdgeSteps::new(1, 0), EdgeSteps::new(-1, 2)],
+            depth: PacketDepth::from_num(100),
+            depth_step_x: PacketDepth::from_num(1.5),
+            depth_step_y: PacketDepth::from_num(-10),
+        },
     };
     let mut lent = Lent::new();
     let mut device = lent.enabled();
@@ -132,18 +140,27 @@ fn any_span(rng: &mut Rng, size: u32) -> Span {
     Span::new(first as u16, last as u16)
 }
 
+/// Mostly the usual mode.
+fn any_mode(rng: &mut Rng) -> PixelMode {
+    let mut bit = || rng.below(8) == 0;
+    PixelMode { keep_depth: bit(), keep_colour: bit(), depth_grey: bit() }
+}
+
 /// Any words at all, but for a box on the screen and a header that is right.
 fn garbage(rng: &mut Rng) -> FlatTriangle {
     let depth = [0; 3].map(|_| PacketDepth::from_bits(rng.word() as i32));
     FlatTriangle {
         colour: Rgb332(rng.word() as u8),
-        columns: any_span(rng, WIDTH),
-        rows: any_span(rng, HEIGHT),
-        edges: [0; 3].map(|_| rng.word() as i32),
-        steps: [0; 2].map(|_| EdgeSteps(rng.word())),
-        depth: depth[0],
-        depth_step_x: depth[1],
-        depth_step_y: depth[2],
+        mode: any_mode(rng),
+        shape: TriangleShape {
+            columns: any_span(rng, WIDTH),
+            rows: any_span(rng, HEIGHT),
+            edges: [0; 3].map(|_| rng.word() as i32),
+            steps: [0; 2].map(|_| EdgeSteps(rng.word())),
+            depth: depth[0],
+            depth_step_x: depth[1],
+            depth_step_y: depth[2],
+        },
     }
 }
 
@@ -156,7 +173,8 @@ fn near_the_border(rng: &mut Rng) -> FlatTriangle {
     let steps = [EdgeSteps::new(step(), step()), EdgeSteps::new(step(), step())];
     let reach = 40 << (16 - step_bits);
     let edges = [0; 3].map(|_| CENTRES[rng.below(8) as usize].wrapping_add(rng.within(-reach / 2, reach)));
-    FlatTriangle { steps, edges, ..garbage(rng) }
+    let garbage = garbage(rng);
+    FlatTriangle { shape: TriangleShape { steps, edges, ..garbage.shape }, ..garbage }
 }
 
 /// What setup makes of three vertices: small, large, or reaching into the guard band.
@@ -173,18 +191,40 @@ fn real(rng: &mut Rng) -> FlatTriangle {
     }
 }
 
-fn compare_with_reference(seed: u64, count: usize, make: fn(&mut Rng) -> FlatTriangle) -> Reference {
+/// Colours before any of these shapes: of any words, or of slow steps from a colour, which end in range.
+fn gouraud(rng: &mut Rng) -> GouraudTriangle {
+    let shape = match rng.below(4) {
+        0 => garbage(rng),
+        1 => near_the_border(rng),
+        _ => real(rng),
+    }
+    .shape;
+    let slow = rng.below(3) > 0;
+    let mut channels =
+        |reach: i32| Channels([0; 3].map(|_| if slow { rng.within(-reach, reach) } else { rng.word() as i32 }));
+    let within_21_bits = |channels: Channels| Channels(channels.0.map(|channel| channel & 0x1f_ffff));
+    GouraudTriangle {
+        colour: within_21_bits(channels(300 << 12)),
+        colour_step_x: within_21_bits(channels(0x1000)),
+        colour_step_y: within_21_bits(channels(0x1000)),
+        mode: any_mode(rng),
+        shape,
+    }
+}
+
+fn compare_with_reference(seed: u64, count: usize, make: fn(&mut Rng) -> Packet) -> Reference {
     let mut rng = Rng(seed);
     let mut lent = Lent::new();
     let mut device = lent.enabled();
     let mut reference = Reference::new();
     for index in 0..count {
-        let triangle = make(&mut rng);
-        let words = triangle.encode();
-        assert_eq!(
-            Packet::decode(fpga_regs::packet::Header(words[0]), &words[1..]),
-            Ok(Packet::FlatTriangle(triangle))
-        );
+        let packet = make(&mut rng);
+        let (words, shape) = match packet {
+            Packet::FlatTriangle(triangle) => (triangle.encode().to_vec(), triangle.shape),
+            Packet::GouraudTriangle(triangle) => (triangle.encode().to_vec(), triangle.shape),
+            other => panic!("{other:?} is no triangle"),
+        };
+        assert_eq!(Packet::decode(fpga_regs::packet::Header(words[0]), &words[1..]), Ok(packet));
         if index % 16 == 0 {
             let clear = Clear { colour: Rgb332(rng.word() as u8), depth: u16::MAX - (rng.below(256) as u16) }.encode();
             device.push(&clear);
@@ -192,11 +232,12 @@ fn compare_with_reference(seed: u64, count: usize, make: fn(&mut Rng) -> FlatTri
         }
         device.push(&words);
         reference.take(&words);
-        assert_eq!(device.counters(), reference.counters, "triangle {index}: {triangle:?}");
-        for row in triangle.rows.first()..=triangle.rows.last() {
+        assert_eq!(device.counters(), reference.counters, "triangle {index}: {packet:?}");
+        for row in shape.rows.first()..=shape.rows.last() {
             let start = usize::from(row) * WIDTH as usize;
-            let part = start + usize::from(triangle.columns.first())..=start + usize::from(triangle.columns.last());
-            let what = format_args!("triangle {index}, row {row}: {triangle:?}").to_string();
+            let columns = shape.columns;
+            let part = start + usize::from(columns.first())..=start + usize::from(columns.last());
+            let what = format_args!("triangle {index}, row {row}: {packet:?}").to_string();
             assert_eq!(device.back()[part.clone()], reference.colours[1][part.clone()], "colours of {what}");
             assert_eq!(device.depth()[part.clone()], reference.depths[part], "depths of {what}");
         }
@@ -219,15 +260,24 @@ fn assert_drew(reference: &Reference, count: u32, pixels_tested: u32) {
 
 #[test]
 fn triangles_of_garbage_words_are_drawn_as_the_reference_draws_them() {
-    assert_drew(&compare_with_reference(1, 50_000, garbage), 50_000, 1_000_000);
+    assert_drew(&compare_with_reference(1, 50_000, |rng| Packet::FlatTriangle(garbage(rng))), 50_000, 1_000_000);
 }
 
 #[test]
 fn triangles_with_borders_and_wraps_in_the_box_are_drawn_as_the_reference_draws_them() {
-    assert_drew(&compare_with_reference(2, 60_000, near_the_border), 60_000, 1_000_000);
+    assert_drew(
+        &compare_with_reference(2, 60_000, |rng| Packet::FlatTriangle(near_the_border(rng))),
+        60_000,
+        1_000_000,
+    );
 }
 
 #[test]
 fn triangles_from_setup_are_drawn_as_the_reference_draws_them() {
-    assert_drew(&compare_with_reference(3, 40_000, real), 40_000, 10_000_000);
+    assert_drew(&compare_with_reference(3, 40_000, |rng| Packet::FlatTriangle(real(rng))), 40_000, 10_000_000);
+}
+
+#[test]
+fn gouraud_triangles_are_drawn_as_the_reference_draws_them() {
+    assert_drew(&compare_with_reference(4, 40_000, |rng| Packet::GouraudTriangle(gouraud(rng))), 40_000, 5_000_000);
 }

@@ -1,6 +1,8 @@
 //! Triangle packets from vertices, and words that no setup makes.
 
-use fpga_regs::packet::{EdgeSteps, FlatTriangle, Header, Kind, Span};
+use fpga_regs::packet::{
+    Channels, EdgeSteps, FlatTriangle, GouraudTriangle, Header, Kind, PixelMode, Span, TriangleShape,
+};
 use fpga_regs::screen::{GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
 
 use super::random::Random;
@@ -62,13 +64,16 @@ pub fn triangle(mut vertices: [Vertex; 3], colour: u8, loose: bool) -> Option<Fl
     let q = |value: i64| PacketDepth::from_bits(value as i32);
     Some(FlatTriangle {
         colour: Rgb332(colour),
-        columns: Span::new(left as u16, right as u16),
-        rows: Span::new(top as u16, bottom as u16),
-        edges,
-        steps: [steps[0], steps[1]],
-        depth: q(depth),
-        depth_step_x: q(step_x),
-        depth_step_y: q(step_y),
+        mode: PixelMode::USUAL,
+        shape: TriangleShape {
+            columns: Span::new(left as u16, right as u16),
+            rows: Span::new(top as u16, bottom as u16),
+            edges,
+            steps: [steps[0], steps[1]],
+            depth: q(depth),
+            depth_step_x: q(step_x),
+            depth_step_y: q(step_y),
+        },
     })
 }
 
@@ -116,8 +121,28 @@ pub fn any_triangle(random: &mut Random) -> FlatTriangle {
         });
         let loose = random.one_in(200);
         if let Some(triangle) = triangle(vertices, random.word() as u8, loose) {
-            return triangle;
+            return FlatTriangle { mode: any_mode(random), ..triangle };
         }
+    }
+}
+
+/// Returns mostly the usual mode.
+fn any_mode(random: &mut Random) -> PixelMode {
+    PixelMode { keep_depth: random.one_in(12), keep_colour: random.one_in(12), depth_grey: random.one_in(12) }
+}
+
+/// Returns a triangle as [`any_triangle`]'s whose colour changes: by little from pixel to pixel, so
+/// that it stays in range or leaves it here and there, or by anything.
+pub fn any_gouraud_triangle(random: &mut Random) -> GouraudTriangle {
+    let shape = any_triangle(random).shape;
+    let slope_bits = random.within(0, 21);
+    let mut channels = |reach: i32| Channels([0; 3].map(|_| random.within(-reach, reach) & 0x1f_ffff));
+    GouraudTriangle {
+        colour: channels(1 << 20),
+        colour_step_x: channels(1 << slope_bits >> 1),
+        colour_step_y: channels(1 << slope_bits >> 1),
+        mode: any_mode(random),
+        shape,
     }
 }
 
@@ -147,7 +172,7 @@ pub fn garbage_triangle(random: &mut Random) -> [u32; FlatTriangle::WORDS] {
             *step = (*step as i32 >> 14) as u32;
         }
     }
-    words[0] = Header::of(Kind::FlatTriangle).0 | words[0] & 0xff;
+    words[0] = Header::of(Kind::FlatTriangle).0 | words[0] & 0x7ff;
     words[1] = columns.0;
     words[2] = rows.0;
     words
@@ -160,10 +185,11 @@ pub fn garbage_words(random: &mut Random) -> Vec<u32> {
         let kind = match random.within(0, 3) {
             0 => random.within(0, 255) as u32,
             // No swap: it would cost a frame each.
-            _ => [Kind::Clear, Kind::FlatTriangle, Kind::Fence][random.within(0, 2) as usize] as u32,
+            _ => [Kind::Clear, Kind::FlatTriangle, Kind::GouraudTriangle, Kind::Fence][random.within(0, 3) as usize]
+                as u32,
         };
         let kind = if kind == Kind::Swap as u32 { 0 } else { kind };
-        let length = if random.one_in(3) { random.within(0, 16) as u32 } else { [1, 10, 1, 0][(kind & 3) as usize] };
+        let length = if random.one_in(3) { random.within(0, 20) as u32 } else { [1, 1, 10, 16][(kind & 3) as usize] };
         let low = if random.one_in(3) { random.word() & 0xffff } else { 0 };
         words.push(kind << 24 | length << 16 | low);
         for _ in 0..length {

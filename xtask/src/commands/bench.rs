@@ -5,6 +5,7 @@ use std::process::Command;
 
 use anyhow::{Context, ensure};
 
+use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
 use crate::measure::{self, Measurement};
@@ -38,6 +39,7 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let step = progress.step("counting the FPGA's clocks");
     measurements.extend(verilated.bench()?);
     step.done();
+    measurements.extend(area::measurements()?);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {

@@ -2,21 +2,35 @@
 
 use std::fmt::Write as _;
 
+use fpga_regs::board_io::BOARD_REGISTERS;
 use fpga_regs::layout::Field;
 use fpga_regs::packet::{Header, Kind};
-use fpga_regs::registers::{Access, REGISTERS};
-use fpga_regs::screen;
+use fpga_regs::registers::{Access, REGISTERS, RegisterInfo};
+use fpga_regs::{de1_soc, screen};
 
 /// Returns the page, in Markdown.
 pub fn text() -> String {
     let mut page = String::from(
         "# Registers and packets\n\n\
          Generated from `fpga-regs` by `cargo xtask generate`: change it there.\n\n\
-         All words have 32 bits. Offsets are bytes from the start of the register agent (0xFF200000 on the\n\
-         DE1-SoC); the FIFO aperture is an agent of its own.\n\n## Registers\n\n\
-         | offset | name | access | reset | holds |\n| --- | --- | --- | --- | --- |\n",
+         All words have 32 bits. Offsets are bytes from the start of the register agent; the FIFO aperture is\n\
+         an agent of its own, and so are a board's inputs and outputs.\n\n## Registers\n\n",
     );
-    for register in REGISTERS {
+    registers(&mut page, REGISTERS);
+    packets(&mut page);
+    sizes(&mut page);
+    page.push_str(
+        "\n## The board's inputs and outputs\n\n\
+         An agent of its own, apart from the rasterizer; offsets are bytes from its start.\n\n",
+    );
+    registers(&mut page, BOARD_REGISTERS);
+    de1_soc_addresses(&mut page);
+    page
+}
+
+fn registers(page: &mut String, table: &[RegisterInfo]) {
+    page.push_str("| offset | name | access | reset | holds |\n| --- | --- | --- | --- | --- |\n");
+    for register in table {
         let access = match register.access {
             Access::ReadOnly => "read only",
             Access::ReadWrite => "read, write",
@@ -33,14 +47,27 @@ pub fn text() -> String {
     }
     page.push_str("\n### Fields\n\nBits that no field names read 0 and ignore what is written.\n\n");
     page.push_str("| register | bits | field | meaning |\n| --- | --- | --- | --- |\n");
-    for register in REGISTERS {
+    for register in table {
         for field in register.fields {
             let _ = writeln!(page, "| {} | {} |", register.name, field_row(field));
         }
     }
-    packets(&mut page);
-    sizes(&mut page);
-    page
+}
+
+fn de1_soc_addresses(page: &mut String) {
+    let _ = write!(
+        page,
+        "\n## Addresses on the DE1-SoC\n\n| agent | bridge | address |\n| --- | --- | --- |\n\
+         | registers | lightweight HPS-to-FPGA | {:#X} |\n\
+         | board inputs and outputs | lightweight HPS-to-FPGA | {:#X} |\n\
+         | FIFO aperture | HPS-to-FPGA, 32 bits wide | {:#X} |\n\n\
+         The interrupt is the processor's number {} (the FPGA's first). The project is set so that any other\n\
+         address of the two bridges answers with an error.\n",
+        de1_soc::REGISTERS,
+        de1_soc::BOARD_IO,
+        de1_soc::FIFO_APERTURE,
+        de1_soc::INTERRUPT,
+    );
 }
 
 fn field_row(field: &Field) -> String {
@@ -86,8 +113,16 @@ fn packets(page: &mut String) {
          | depth and its steps | signed Q20.12 modulo 2^32 | any; at a covered pixel the sum is in −1…65,536 |\n\n\
          A pixel is inside where all three edge values are 0 or more; the third edge's steps are minus the sum of\n\
          the others'. Its depth is bits 31…12 of the sum, saturated to 0…65,535; it is drawn when that is less\n\
-         than the depth buffer holds.\n",
+         than the depth buffer holds.\n\n\
+         A channel of a Gouraud triangle is bits 20…12 of its sum: up to 255 as they are, 256…383 are taken for 255,\n\
+         384…511 for 0. With v such a channel and t the threshold of the pixel below, red and green are\n\
+         (v − ⌊v/8⌋ + 2t + 1) / 32 and blue is (v − ⌊v/4⌋ + 4t + 2) / 64, fractions dropped.\n\n\
+         | y mod 4 | x mod 4 = 0 | 1 | 2 | 3 |\n| --- | --- | --- | --- | --- |\n",
     );
+    for (row, thresholds) in screen::DITHER.iter().enumerate() {
+        let [first, second, third, fourth] = thresholds;
+        let _ = writeln!(page, "| {row} | {first} | {second} | {third} | {fourth} |");
+    }
 }
 
 fn sizes(page: &mut String) {

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use fpga_regs::layout::Field;
-use fpga_regs::packet::{FlatTriangle, Header, Kind};
-use fpga_regs::registers::{ID_HALF, REGISTERS, VERSION_MAJOR, VERSION_MINOR};
+use fpga_regs::packet::{Channels, Header, Kind, Packet, TriangleShape};
+use fpga_regs::registers::{ID_HALF, REGISTERS, RegisterInfo, VERSION_MAJOR, VERSION_MINOR};
 use fpga_regs::screen;
 
 /// Returns the package.
@@ -34,12 +34,23 @@ fn sizes(package: &mut String) {
         ("Height", screen::HEIGHT, "pixels"),
         ("SubpixelBits", screen::SUBPIXEL_BITS, "fraction bits of a screen coordinate"),
         ("DepthFractionBits", screen::DEPTH_FRACTION_BITS, "fraction bits of depth in a packet"),
+        ("ColourFractionBits", screen::COLOUR_FRACTION_BITS, "fraction bits of a colour channel in a packet"),
+        ("ChannelBits", Channels::BITS, "bits of a colour channel in a packet"),
         ("DepthFar", u32::from(screen::DEPTH_FAR), "far plane, and what a clear leaves"),
         ("GuardBand", screen::GUARD_BAND as u32, "largest magnitude of a vertex's coordinate, sub-pixels"),
         ("FifoApertureWords", screen::FIFO_APERTURE_WORDS as u32, "address space of the FIFO agent"),
     ] {
         constant(package, unsigned, name, value, doc);
     }
+    let thresholds = screen::DITHER.concat();
+    let digits: String = thresholds.iter().rev().map(|threshold| format!("{threshold:x}")).collect();
+    constant(
+        package,
+        "logic [15:0][3:0]",
+        "Dither",
+        format!("64'h{digits}"),
+        "thresholds of ordered dithering, by 4 y + x",
+    );
     package.push('\n');
 }
 
@@ -60,13 +71,18 @@ fn registers(package: &mut String) {
         format!("16'd{VERSION_MINOR}"),
         "grows with compatible additions",
     );
+    register_table(package, REGISTERS);
+}
+
+/// An agent's registers: an enum of their offsets, and a structure for each that has fields.
+pub(super) fn register_table(package: &mut String, table: &[RegisterInfo]) {
     package.push_str("  typedef enum logic [7:0] {\n");
-    for (index, register) in REGISTERS.iter().enumerate() {
-        let comma = if index + 1 < REGISTERS.len() { "," } else { "" };
+    for (index, register) in table.iter().enumerate() {
+        let comma = if index + 1 < table.len() { "," } else { "" };
         let _ = writeln!(package, "    Reg{} = 8'h{:02x}{comma}", camel(register.name), register.offset);
     }
     package.push_str("  } register_e;\n\n");
-    for register in REGISTERS.iter().filter(|register| !register.fields.is_empty()) {
+    for register in table.iter().filter(|register| !register.fields.is_empty()) {
         structure(package, &register.name.to_lowercase(), register.doc, register.fields);
     }
 }
@@ -86,8 +102,15 @@ fn packets(package: &mut String) {
         package,
         "int unsigned",
         "PayloadWordsMax",
-        FlatTriangle::WORDS - 1,
+        Packet::MAX_WORDS - 1,
         "words behind the longest packet's header",
+    );
+    constant(
+        package,
+        "int unsigned",
+        "ShapeWords",
+        TriangleShape::WORDS,
+        "words of a shape, a triangle packet's last ones",
     );
     package.push('\n');
     structure(package, "header", Header::DOC, Header::FIELDS);
@@ -102,6 +125,10 @@ fn packets(package: &mut String) {
                     "span".to_string()
                 } else if word.fields.iter().any(|field| field.name == "step_x") {
                     "edge_steps".to_string()
+                } else if word.fields.iter().any(|field| field.name == "green_low") {
+                    "channels_low".to_string()
+                } else if word.fields.iter().any(|field| field.name == "green_high") {
+                    "channels_high".to_string()
                 } else {
                     format!("{}_{}", kind.info().name.to_lowercase(), word.name)
                 };
