@@ -90,7 +90,7 @@ fn a_device_that_is_not_ours_is_read_up_to_where_it_differs_and_never_written() 
 
 #[test]
 fn a_newer_minor_version_and_the_smallest_fifo_will_do() {
-    let mock = Mock::new(Behaviour { fifo_depth: 22, ..Behaviour::default() });
+    let mock = Mock::new(Behaviour { fifo_depth: 34, ..Behaviour::default() });
     mock.answer(Register::Version, Version::default().with_major(VERSION_MAJOR).with_minor(999).0);
     assert!(Renderer::new(mock.clone(), mock.clone(), Timeouts::default()).is_ok());
 }
