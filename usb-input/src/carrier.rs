@@ -5,7 +5,6 @@ use core::future::{Future, pending, poll_fn};
 use core::task::Poll;
 use core::time::Duration;
 
-use embassy_futures::join::join;
 use embassy_futures::select::{Either, select};
 use embassy_usb_driver::host::{
     HostError, PipeError, TimeoutConfig, UsbHostAllocator, UsbHostController, UsbPipe, pipe,
@@ -27,8 +26,8 @@ pub(crate) async fn slot<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator
     let mailbox = memory.mailbox(slot);
     loop {
         mailbox.until_open(true).await;
-        let both = join(transfers(memory, allocator, mailbox), packets(memory, allocator, mailbox));
-        select(both, mailbox.until_open(false)).await;
+        let carried = select(transfers(memory, allocator, mailbox), packets(memory, allocator, mailbox));
+        select(carried, mailbox.until_open(false)).await;
     }
 }
 
