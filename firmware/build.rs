@@ -14,6 +14,9 @@ const VEXPRESS_A9: [(&str, u32); 4] = [
     ("_l2_cache_controller", 0x1E00_A000),
 ];
 
+/// QEMU's raspi2b takes the image where the DE1-SoC does. The Cortex-A7 has no PL310.
+const RASPI2B: [(&str, u32); 1] = [("_l2_cache_controller", 0)];
+
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=../memory.x");
@@ -21,19 +24,26 @@ fn main() {
     if env::var("CARGO_CFG_TARGET_ARCH").as_deref() != Ok("arm") {
         return;
     }
-    let vexpress_a9 = env::var_os("CARGO_FEATURE_VEXPRESS_A9").is_some();
-    let de1_soc = env::var_os("CARGO_FEATURE_DE1_SOC").is_some();
-    if !vexpress_a9 && !de1_soc {
+    let board = |feature: &str| env::var_os(format!("CARGO_FEATURE_{feature}")).is_some();
+    let (vexpress_a9, raspi2b) = (board("VEXPRESS_A9"), board("RASPI2B"));
+    if !vexpress_a9 && !raspi2b && !board("DE1_SOC") {
         return;
     }
     let crate_root = env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR");
     let workspace = Path::new(&crate_root).parent().expect("the crate lies in the workspace");
     println!("cargo::rustc-link-search={}", workspace.display());
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
+    let symbols: &[(&str, u32)] = if vexpress_a9 {
+        &VEXPRESS_A9
+    } else if raspi2b {
+        &RASPI2B
+    } else {
+        &[]
+    };
+    for (symbol, value) in symbols {
+        println!("cargo::rustc-link-arg-bins=--defsym={symbol}={value:#x}");
+    }
     if vexpress_a9 {
-        for (symbol, value) in VEXPRESS_A9 {
-            println!("cargo::rustc-link-arg-bins=--defsym={symbol}={value:#x}");
-        }
         println!("cargo::rustc-link-arg-bins=-Tdefmt.x");
         // defmt's own default leaves all but errors out.
         if env::var_os("DEFMT_LOG").is_none() {

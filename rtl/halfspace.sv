@@ -79,7 +79,7 @@ module halfspace #(
   wholes_t [PixelUnits-1:0] pixel_plane;
   logic [PixelUnits-1:0][3:0] threshold;
   logic [7:0] colour;
-  logic depth_test, shaded;
+  pixel_mode_t mode;
 
   logic front, swapped, fenced;
   logic vertical_blank, swap_window;
@@ -216,9 +216,8 @@ module halfspace #(
       .index_o     (index),
       .plane_o     (pixel_plane),
       .threshold_o (threshold),
-      .shaded_o    (shaded),
       .colour_o    (colour),
-      .depth_test_o(depth_test),
+      .mode_o      (mode),
       .idle_o      (evaluator_idle)
   );
 
@@ -232,12 +231,11 @@ module halfspace #(
         .rst_ni       (rst_n),
         .clear_i      (clear),
         .covered_i    (covered[k]),
-        .depth_test_i (depth_test),
+        .mode_i       (mode),
         .index_i      (index[IndexWidth-1:0]),
         .depth_i      (pixel_depth[k]),
         .plane_i      (pixel_plane[k]),
         .threshold_i  (threshold[k]),
-        .shaded_i     (shaded),
         .colour_i     (colour),
         .back_buffer_i(!front),
         .tested_o     (tested[k]),
@@ -277,7 +275,7 @@ module halfspace #(
       .clk_i,
       .rst_ni          (rst_n),
       .clear_i         (clear),
-      .triangle_i      (primitive_valid && primitive_ready && new_primitive.depth_test),
+      .triangle_i      (primitive_valid && primitive_ready && new_primitive.mode.counted),
       .tested_i        (tested),
       .written_i       (written),
       .busy_i          (busy),

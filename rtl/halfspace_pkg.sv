@@ -121,7 +121,10 @@ package halfspace_pkg;
   typedef struct packed {
     logic [7:0] kind;  // What the packet asks for.
     logic [7:0] length;  // How many words follow.
-    logic [7:0] reserved;  // Zero; room for later modes.
+    logic [4:0] reserved;  // Zero; room for later modes.
+    logic [0:0] depth_grey;  // Triangles only: the colour is the depth as grey, the farther the darker.
+    logic [0:0] keep_colour;  // Triangles only: leaves colour as it is.
+    logic [0:0] keep_depth;  // Triangles only: tests no depth and leaves depth as it is.
     logic [7:0] colour;  // RGB332 colour of a clear or a flat triangle; zero in other kinds.
   } header_t;
 

@@ -46,6 +46,7 @@ module packet_decoder (
   logic skipping_q, skipping_d;
   kind_e kind_q, kind_d;
   logic [7:0] colour_q, colour_d;
+  logic keep_depth_q, keep_colour_q, depth_grey_q;
   logic valid_q, valid_d;
   logic is_triangle;
 
@@ -66,9 +67,10 @@ module packet_decoder (
   assign header = header_t'(word_i);
   always_comb begin
     logic [7:0] length;
-    logic known, has_colour;
+    logic known, has_colour, has_mode;
     known      = 1'b1;
     has_colour = 1'b0;
+    has_mode   = 1'b0;
     length     = '0;
     unique case (header.kind)
       KindClear: begin
@@ -78,14 +80,19 @@ module packet_decoder (
       KindFlatTriangle: begin
         length     = 8'(FlatTriangleWords);
         has_colour = 1'b1;
+        has_mode   = 1'b1;
       end
-      KindGouraudTriangle: length = 8'(GouraudTriangleWords);
+      KindGouraudTriangle: begin
+        length   = 8'(GouraudTriangleWords);
+        has_mode = 1'b1;
+      end
       KindSwap: length = 8'(SwapWords);
       KindFence: length = 8'(FenceWords);
       default: known = 1'b0;
     endcase
     header_good = known && header.length == length && header.reserved == '0 &&
-                  (has_colour || header.colour == '0);
+                  (has_colour || header.colour == '0) &&
+                  (has_mode || {header.keep_depth, header.keep_colour, header.depth_grey} == '0);
   end
 
   // A packet's last word is on its way in: the others stand one place lower than at the end.
@@ -146,6 +153,9 @@ module packet_decoder (
       skipping_q <= 1'b0;
       kind_q     <= KindClear;
       colour_q   <= '0;
+      keep_depth_q  <= 1'b0;
+      keep_colour_q <= 1'b0;
+      depth_grey_q  <= 1'b0;
       valid_q    <= 1'b0;
       payload_q  <= '0;
     end else begin
@@ -153,6 +163,11 @@ module packet_decoder (
       skipping_q <= skipping_d;
       kind_q     <= kind_d;
       colour_q   <= colour_d;
+      if (take && missing_q == '0) begin
+        keep_depth_q  <= header.keep_depth;
+        keep_colour_q <= header.keep_colour;
+        depth_grey_q  <= header.depth_grey;
+      end
       valid_q    <= valid_d;
       if (shift) payload_q <= {payload_q[PayloadWordsMax-2:0], word_i};
     end
@@ -181,8 +196,14 @@ module packet_decoder (
     clear_depth = clear_depth_t'(payload_q[ClearWords-1-ClearDepthWord]);
 
     primitive_o            = '0;
-    primitive_o.depth_test = is_triangle;
-    primitive_o.shaded     = kind_q == KindGouraudTriangle;
+    primitive_o.mode = '{
+        counted: is_triangle,
+        depth_test: is_triangle && !keep_depth_q,
+        depth_write: !keep_depth_q,
+        colour_write: !keep_colour_q,
+        depth_grey: depth_grey_q,
+        shaded: kind_q == KindGouraudTriangle
+    };
     primitive_o.colour     = colour_q;
     // In a flat triangle these are words of packets before it; nobody looks.
     primitive_o.plane        = channels(GouraudTriangleColourLowWord);

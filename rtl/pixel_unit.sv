@@ -20,13 +20,12 @@ module pixel_unit #(
     input  logic                  clear_i,
 
     input  logic                  covered_i,
-    input  logic                  depth_test_i,
+    input  raster_pkg::pixel_mode_t mode_i,
     input  logic [IndexWidth-1:0] index_i,
     input  raster_pkg::value_t    depth_i,
-    input  raster_pkg::wholes_t   plane_i,        // the colour, if `shaded_i`
-    input  logic [3:0]            threshold_i,    // and its dither
-    input  logic                  shaded_i,
-    input  logic [7:0]            colour_i,       // else
+    input  raster_pkg::wholes_t   plane_i,        // the colour of a shaded pixel
+    input  logic [3:0]            threshold_i,    // its dither
+    input  logic [7:0]            colour_i,       // the colour of another
     input  logic                  back_buffer_i,  // may change only while idle_o is 1
 
     output logic                  tested_o,
@@ -44,24 +43,25 @@ module pixel_unit #(
 
   localparam int unsigned Pixels = Width * Height / PixelUnits;
 
-  logic covered3_q, test3_q;
+  logic covered3_q;
+  pixel_mode_t mode3_q;
   logic [IndexWidth-1:0] index3_q;
   logic [15:0] depth3_q, depth3_d;
   logic [7:0] red3_q, green3_q, blue3_q;  // scaled: 224, 224 and 192 are full
   logic [3:0] threshold3_q;
-  logic shaded3_q;
   logic [7:0] colour3_q;
   logic [15:0] depth_read;
+  logic [2:0][7:0] channels3_d;
 
-  logic write_d, tested_d;
+  logic passed_d, tested_d;
   logic [15:0] nearest;
 
-  logic write4_q, tested4_q, counted4_q;
+  logic depth_write4_q, colour_write4_q, tested4_q, passed4_q;
   logic [IndexWidth-1:0] index4_q;
   logic [15:0] depth4_q;
   logic [7:0] colour4_q, colour4_d;
 
-  logic write5_q;
+  logic depth_write5_q;
   logic [IndexWidth-1:0] index5_q;
   logic [15:0] depth5_q;
 
@@ -85,42 +85,45 @@ module pixel_unit #(
             2'((blue + {2'b0, threshold, 2'b10}) >> 6)};
   endfunction
 
-  assign colour4_d = shaded3_q ? dithered(red3_q, green3_q, blue3_q, threshold3_q) : colour3_q;
+  assign channels3_d = mode_i.depth_grey ? {3{~depth3_d[15:8]}} :
+      {saturated(plane_i.blue), saturated(plane_i.green), saturated(plane_i.red)};
+  assign colour4_d = (mode3_q.shaded || mode3_q.depth_grey) ? dithered(red3_q, green3_q, blue3_q, threshold3_q) : colour3_q;
 
   always_comb begin
-    if (write4_q && index4_q == index3_q) nearest = depth4_q;
-    else if (write5_q && index5_q == index3_q) nearest = depth5_q;
+    if (depth_write4_q && index4_q == index3_q) nearest = depth4_q;
+    else if (depth_write5_q && index5_q == index3_q) nearest = depth5_q;
     else nearest = depth_read;
   end
 
-  assign tested_d = covered3_q && test3_q && !clear_i;
-  assign write_d  = covered3_q && !clear_i && (!test3_q || depth3_q < nearest);
+  assign tested_d = covered3_q && mode3_q.counted && !clear_i;
+  assign passed_d = covered3_q && !clear_i && (!mode3_q.depth_test || depth3_q < nearest);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       covered3_q <= 1'b0;
-      write4_q   <= 1'b0;
-      tested4_q  <= 1'b0;
-      counted4_q <= 1'b0;
-      write5_q   <= 1'b0;
+      depth_write4_q  <= 1'b0;
+      colour_write4_q <= 1'b0;
+      tested4_q       <= 1'b0;
+      passed4_q       <= 1'b0;
+      depth_write5_q  <= 1'b0;
     end else begin
       covered3_q <= covered_i && !clear_i;
-      write4_q   <= write_d;
-      tested4_q  <= tested_d;
-      counted4_q <= write_d && test3_q;
-      write5_q   <= write4_q;
+      depth_write4_q  <= passed_d && mode3_q.depth_write;
+      colour_write4_q <= passed_d && mode3_q.colour_write;
+      tested4_q       <= tested_d;
+      passed4_q       <= passed_d && mode3_q.counted;
+      depth_write5_q  <= depth_write4_q;
     end
   end
 
   always_ff @(posedge clk_i) begin
-    test3_q   <= depth_test_i;
+    mode3_q   <= mode_i;
     index3_q  <= index_i;
     depth3_q  <= depth3_d;
-    red3_q    <= saturated(plane_i.red) - (saturated(plane_i.red) >> 3);
-    green3_q  <= saturated(plane_i.green) - (saturated(plane_i.green) >> 3);
-    blue3_q   <= saturated(plane_i.blue) - (saturated(plane_i.blue) >> 2);
+    red3_q    <= channels3_d[0] - (channels3_d[0] >> 3);
+    green3_q  <= channels3_d[1] - (channels3_d[1] >> 3);
+    blue3_q   <= channels3_d[2] - (channels3_d[2] >> 2);
     threshold3_q <= threshold_i;
-    shaded3_q <= shaded_i;
     colour3_q <= colour_i;
 
     index4_q  <= index3_q;
@@ -132,15 +135,15 @@ module pixel_unit #(
   end
 
   assign tested_o  = tested4_q;
-  assign written_o = counted4_q;
-  assign idle_o    = !covered3_q && !write4_q && !tested4_q;
+  assign written_o = passed4_q;
+  assign idle_o    = !covered3_q && !depth_write4_q && !colour_write4_q && !tested4_q;
 
   ram_1w1r #(
       .Width(16),
       .Depth(Pixels)
   ) u_depth (
       .write_clk_i    (clk_i),
-      .write_i        (write4_q),
+      .write_i        (depth_write4_q),
       .write_address_i(index4_q),
       .write_data_i   (depth4_q),
       .read_clk_i     (clk_i),
@@ -154,7 +157,7 @@ module pixel_unit #(
       .Depth(2 * Pixels)
   ) u_colour (
       .write_clk_i    (clk_i),
-      .write_i        (write4_q),
+      .write_i        (colour_write4_q),
       .write_address_i({index4_q, back_buffer_i}),
       .write_data_i   (colour4_q),
       .read_clk_i     (vga_clk_i),
@@ -164,7 +167,7 @@ module pixel_unit #(
 
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
-    if (rst_ni && write4_q) assert (32'(index4_q) < Pixels) else $error("a write outside the memory");
+    if (rst_ni && (depth_write4_q || colour_write4_q)) assert (32'(index4_q) < Pixels) else $error("a write outside the memory");
   end
 `endif
 

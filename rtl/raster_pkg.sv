@@ -43,10 +43,19 @@ package raster_pkg;
   typedef logic [7:0] row_t;
   typedef logic [16:0] index_t;
 
+  // What a primitive's covered pixels do.
+  typedef struct packed {
+    logic counted;      // a triangle; 0: a clear
+    logic depth_test;   // 0: every pixel passes
+    logic depth_write;  // passing pixels replace depth
+    logic colour_write; // passing pixels replace colour
+    logic depth_grey;   // the colour is 255 minus the depth's upper byte, dithered; else
+    logic shaded;       // it is the planes', dithered; else it is `colour`
+  } pixel_mode_t;
+
   // A triangle as its packet gives it, or a clear: the whole screen, edges and steps 0.
   typedef struct packed {
-    logic                 depth_test;    // 0: a clear, writes every pixel and is not counted
-    logic                 shaded;        // its colour is in the planes; 0: in `colour`
+    pixel_mode_t          mode;
     logic [7:0]           colour;
     channels_t            plane;         // at the centre of the box's upper left pixel
     channels_t            plane_step_x;
@@ -65,9 +74,8 @@ package raster_pkg;
 
   // What stays the same over a primitive.
   typedef struct packed {
-    logic               depth_test;
+    pixel_mode_t        mode;
     logic               exhaustive;    // visit every tile of the box: edge values might wrap
-    logic               shaded;
     logic [7:0]         colour;
     channels_t          plane_step_x;
     channels_t          plane_step_y;

@@ -19,11 +19,10 @@ module tile_evaluator #(
     output logic [PixelUnits-1:0]                covered_o,
     output raster_pkg::value_t [PixelUnits-1:0]  depth_o,
     output raster_pkg::index_t                   index_o,
-    output raster_pkg::wholes_t [PixelUnits-1:0] plane_o,      // the colour, if it is `shaded_o`
-    output logic [PixelUnits-1:0][3:0]           threshold_o,  // and its dither
-    output logic                                 shaded_o,
-    output logic [7:0]                           colour_o,     // else
-    output logic                                 depth_test_o,
+    output raster_pkg::wholes_t [PixelUnits-1:0] plane_o,      // the colour of shaded pixels
+    output logic [PixelUnits-1:0][3:0]           threshold_o,  // its dither
+    output logic [7:0]                           colour_o,
+    output raster_pkg::pixel_mode_t              mode_o,       // which colour is meant, and more
 
     output logic                                 idle_o
 );
@@ -47,9 +46,8 @@ module tile_evaluator #(
   channels_t plane_origin_q;
   channels_t [PixelUnits-1:0] plane_offset_q, plane_offset_d;
   logic [1:0] column1_q, row1_q;
-  logic shaded1_q;
   logic [7:0] colour1_q;
-  logic depth_test1_q;
+  pixel_mode_t mode1_q;
 
   // Stage 2.
   logic [PixelUnits-1:0] covered_q, covered_d;
@@ -57,9 +55,8 @@ module tile_evaluator #(
   index_t index2_q;
   wholes_t [PixelUnits-1:0] plane_q, plane_d;
   logic [PixelUnits-1:0][3:0] threshold_q, threshold_d;
-  logic shaded2_q;
   logic [7:0] colour2_q;
-  logic depth_test2_q;
+  pixel_mode_t mode2_q;
 
   always_comb begin
     for (int unsigned i = 0; i < Edges; i++) begin
@@ -131,17 +128,15 @@ module tile_evaluator #(
     plane_offset_q <= plane_offset_d;
     column1_q      <= tile_i.place.column[1:0];
     row1_q         <= tile_i.place.row;
-    shaded1_q      <= constants_i.shaded;
     colour1_q      <= constants_i.colour;
-    depth_test1_q  <= constants_i.depth_test;
+    mode1_q        <= constants_i.mode;
 
     depth_q       <= depth_d;
     index2_q      <= index1_q;
     plane_q       <= plane_d;
     threshold_q   <= threshold_d;
-    shaded2_q     <= shaded1_q;
     colour2_q     <= colour1_q;
-    depth_test2_q <= depth_test1_q;
+    mode2_q       <= mode1_q;
   end
 
   assign covered_o    = covered_q;
@@ -149,9 +144,8 @@ module tile_evaluator #(
   assign index_o      = index2_q;
   assign plane_o      = plane_q;
   assign threshold_o  = threshold_q;
-  assign shaded_o     = shaded2_q;
   assign colour_o     = colour2_q;
-  assign depth_test_o = depth_test2_q;
+  assign mode_o       = mode2_q;
   assign idle_o       = !valid1_q && covered_q == '0;
 
 endmodule

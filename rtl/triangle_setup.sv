@@ -96,9 +96,8 @@ module triangle_setup #(
   end
 
   always_comb begin
-    constants_o.depth_test   = primitive_q.depth_test;
+    constants_o.mode         = primitive_q.mode;
     constants_o.exhaustive   = 1'b0;
-    constants_o.shaded       = primitive_q.shaded;
     constants_o.colour       = primitive_q.colour;
     constants_o.plane_step_x = primitive_q.plane_step_x;
     constants_o.plane_step_y = primitive_q.plane_step_y;

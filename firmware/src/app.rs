@@ -3,13 +3,13 @@
 use core::fmt::Write;
 
 use controls::serial::{Decoder, FRAME_SIZE_MAXIMUM, kind};
-use controls::{Config, Controls};
 use fpga_regs::{RenderError, Renderer, Wait};
 use geometry::MeshError;
 
 use crate::board::Board;
 use crate::frame::{FrameMemory, draw_frame};
-use crate::link::{self, BoardMessage, FrameReport, HostMessage};
+use crate::intake::Intake;
+use crate::link::{self, BoardMessage, FrameReport, HostMessage, Status};
 use crate::scene::{MeshMemory, Meshes, Scene};
 use crate::viewer::Viewer;
 
@@ -33,10 +33,13 @@ pub struct Application<'a, B: Board, W> {
     renderer: Renderer<B::Port, W>,
     meshes: Meshes<'a>,
     frame_memory: &'a mut FrameMemory,
-    controls: Controls,
+    intake: Intake,
     viewer: Viewer,
     decoder: Decoder,
     frame: u32,
+    /// When a frame ended last, in ticks, and the longest time between two since a PC asked.
+    frame_end: u64,
+    slowest_frame: u64,
     /// Draws only when a PC says so.
     stepping: bool,
 }
@@ -52,10 +55,12 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
             renderer,
             meshes: Meshes::new(&mut memory.meshes)?,
             frame_memory: &mut memory.frame,
-            controls: Controls::new(Config::default()),
+            intake: Intake::new(),
             viewer: Viewer::new(Scene::Plate),
             decoder: Decoder::new(),
             frame: 0,
+            frame_end: 0,
+            slowest_frame: 0,
             stepping: false,
         })
     }
@@ -83,7 +88,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     ///
     /// A frame that fails is reported and the renderer reset, so that the next one may succeed.
     pub fn run_once(&mut self) {
-        let unreadable = self.board.poll_controllers(&mut self.controls);
+        let unreadable = self.board.poll_controllers(&mut self.intake);
         if unreadable > 0 {
             let _ = writeln!(self.board.console(), "{unreadable} controller reports could not be read");
         }
@@ -103,10 +108,10 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     /// # Errors
     /// [`RenderError`] of the renderer, which then wants a reset.
     pub fn draw(&mut self) -> Result<FrameReport, RenderError> {
-        let state = self.controls.state();
+        let state = self.intake.state();
         let before = self.viewer.scene();
         self.viewer.update(&state);
-        self.controls.end_frame();
+        self.intake.end_frame();
         let scene = self.viewer.scene();
         if scene != before {
             let _ = writeln!(self.board.console(), "scene: {}", scene.name());
@@ -118,6 +123,11 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         let report = FrameReport { index: self.frame, checksum, ..report };
         self.frame = self.frame.wrapping_add(1);
         self.board.heartbeat(self.frame);
+        let now = self.board.ticks();
+        if self.frame > 1 {
+            self.slowest_frame = self.slowest_frame.max(now.wrapping_sub(self.frame_end));
+        }
+        self.frame_end = now;
         Ok(report)
     }
 
@@ -129,7 +139,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
                 self.send(&BoardMessage::Hello { ticks_per_second, scenes });
             }
             HostMessage::Begin { scene } => {
-                self.controls = Controls::new(Config::default());
+                self.intake = Intake::new();
                 self.viewer = Viewer::new(Scene::from_index(scene.into()));
                 self.frame = 0;
                 self.stepping = true;
@@ -143,8 +153,14 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
                 }
             },
             HostMessage::Run => self.stepping = false,
+            HostMessage::Ask => {
+                let slowest_frame_ticks = u32::try_from(self.slowest_frame).unwrap_or(u32::MAX);
+                let (ticks, frames, tally) = (self.board.ticks(), self.frame, self.intake.tally());
+                self.send(&BoardMessage::Status(Status { ticks, frames, slowest_frame_ticks, tally }));
+                self.slowest_frame = 0;
+            }
             #[cfg(all(target_arch = "arm", feature = "fault-injection"))]
-            HostMessage::Fault(fault) => crate::cortex_a9::fault_injection::inject(fault),
+            HostMessage::Fault(fault) => crate::armv7a::fault_injection::inject(fault),
             #[cfg(not(all(target_arch = "arm", feature = "fault-injection")))]
             HostMessage::Fault(_) => {
                 let _ = writeln!(self.board.console(), "link: this firmware commits no faults");
@@ -174,7 +190,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         let message = match self.decoder.feed(byte) {
             None => return,
             Some(Ok(frame)) if frame.kind < kind::APPLICATION => {
-                if let Err(error) = self.controls.accept_frame(frame.kind, frame.payload) {
+                if let Err(error) = self.intake.accept_frame(frame.kind, frame.payload) {
                     let _ = writeln!(self.board.console(), "link: {error}");
                 }
                 return;

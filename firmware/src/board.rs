@@ -2,8 +2,9 @@
 
 use core::fmt::Write;
 
-use controls::Controls;
 use fpga_regs::Port;
+
+use crate::intake::Intake;
 
 /// A board, beside its renderer's port: a clock, a console, controllers, a line to a PC.
 pub trait Board {
@@ -24,9 +25,9 @@ pub trait Board {
     /// Returns the console.
     fn console(&mut self) -> &mut Self::Console;
 
-    /// Hands the board's own controllers' new reports to `controls`: a keyboard on PS/2 or USB,
+    /// Hands the board's own controllers' new reports to `intake`: a keyboard on PS/2 or USB,
     /// a pad. Returns how many could not be read.
-    fn poll_controllers(&mut self, controls: &mut Controls) -> u32;
+    fn poll_controllers(&mut self, intake: &mut Intake) -> u32;
 
     /// Reads bytes that a PC sent into `buffer` and returns how many; 0 when there are none.
     fn read_link(&mut self, buffer: &mut [u8]) -> usize;

@@ -6,11 +6,18 @@
 //! | [`viewer`] | from what the controllers say to matrices |
 //! | [`scene`] | what there is to look at |
 //! | [`frame`] | one frame: a mesh to packets, and these to the FPGA |
+//! | [`intake`] | what controllers say, taken in and tallied |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
-//! | [`cortex_a9`] | what every Cortex-A9 shares: start-up, MMU, caches, GIC, timers, fault reports |
-//! | [`vexpress_a9`] | QEMU's vexpress-a9: serial lines, keyboard, display, log |
+//! | [`armv7a`] | what every board shares: start-up, MMU, L1 caches, fault reports |
+//! | [`cortex_a9`] | what every Cortex-A9 shares: its start, L2 cache, GIC, timers |
+//! | `cortex_a7` | the Cortex-A7's start |
+//! | [`vexpress_a9`] | QEMU's vexpress-a9: keyboard, display, log |
+//! | [`raspi2b`] | QEMU's raspi2b: timer, interrupts, display, USB |
 //! | [`de1_soc`] | the DE1-SoC: its addresses and its serial console |
+//! | [`software_fpga`] | the FPGA's stand-in on a board that has none |
+//! | [`pl011`] | serial lines on a PL011 |
+//! | `usb` | keyboards and pads on a DWC2 host controller |
 //! | [`ps2`] | PS/2 scan codes to USB keyboard reports |
 //! | [`mmio`] | typed access to memory-mapped registers |
 //!
@@ -18,17 +25,30 @@
 
 #![no_std]
 
-#[cfg(all(feature = "vexpress-a9", feature = "de1-soc"))]
-compile_error!("features `vexpress-a9` and `de1-soc` name two boards: choose one");
+#[cfg(any(
+    all(feature = "vexpress-a9", feature = "de1-soc"),
+    all(feature = "vexpress-a9", feature = "raspi2b"),
+    all(feature = "raspi2b", feature = "de1-soc")
+))]
+compile_error!("of the features `vexpress-a9`, `raspi2b` and `de1-soc` each names a board: choose one");
 
 pub mod app;
+pub mod armv7a;
 pub mod board;
+#[cfg(target_arch = "arm")]
+pub mod cortex_a7;
 pub mod cortex_a9;
 pub mod de1_soc;
 pub mod frame;
+pub mod intake;
 pub mod link;
 pub mod mmio;
+pub mod pl011;
 pub mod ps2;
+pub mod raspi2b;
 pub mod scene;
+pub mod software_fpga;
+#[cfg(all(target_arch = "arm", feature = "usb"))]
+pub mod usb;
 pub mod vexpress_a9;
 pub mod viewer;

@@ -7,6 +7,8 @@
 use controls::serial::{self, EncodeError, FRAME_SIZE_MAXIMUM, PAYLOAD_MAXIMUM, kind};
 use serde::{Deserialize, Serialize};
 
+use crate::intake::Tally;
+
 /// Frame kind of a [`HostMessage`].
 pub const HOST_MESSAGE: u8 = kind::APPLICATION;
 /// Frame kind of a [`BoardMessage`].
@@ -31,6 +33,8 @@ pub enum HostMessage {
     /// Commit a fault, so that its report can be seen; only firmware that was built with the feature
     /// `fault-injection` does.
     Fault(Fault),
+    /// Answer with [`BoardMessage::Status`].
+    Ask,
 }
 
 /// A fault on purpose.
@@ -69,6 +73,21 @@ pub enum BoardMessage {
     Frame(FrameReport),
     /// A frame could not be drawn; the reason stands on the console. The renderer was reset.
     Failed,
+    /// How it goes.
+    Status(Status),
+}
+
+/// How it goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Status {
+    /// The board's time, in ticks.
+    pub ticks: u64,
+    /// Frames drawn since the scene began.
+    pub frames: u32,
+    /// Longest time from the end of a frame to the end of the next since the last answer, in ticks.
+    pub slowest_frame_ticks: u32,
+    /// What controllers said.
+    pub tally: Tally,
 }
 
 /// What a frame took and made.
@@ -133,6 +152,7 @@ mod tests {
             BoardMessage::Frame(report),
             BoardMessage::Failed,
             BoardMessage::Hello { ticks_per_second: 100_000_000, scenes: 3 },
+            BoardMessage::Status(Status { ticks: u64::MAX, frames: 7, ..Default::default() }),
         ] {
             let mut buffer = [0; FRAME_SIZE_MAXIMUM];
             let bytes = encode(BOARD_MESSAGE, &message, &mut buffer).unwrap();

@@ -44,7 +44,7 @@ pub use commands::{Clear, ClearDepth, Fence, swap};
 pub use decode::Packet;
 pub use flat_triangle::FlatTriangle;
 pub use gouraud_triangle::{Channels, ChannelsHigh, ChannelsLow, GouraudTriangle};
-pub use header::{BadPacket, Header, Kind, PacketInfo, WordInfo};
+pub use header::{BadPacket, Header, Kind, PacketInfo, PixelMode, WordInfo};
 pub use triangle_shape::{EdgeSteps, Span, TriangleShape};
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //! | [`clip`] | homogeneous clipping at the near and far planes and the guard band |
 //! | [`light`] | ambient and directional light, a colour a face |
 //! | [`setup`] | edge functions, box and depth plane of a screen triangle |
+//! | [`line`] | lines, as packets of very thin triangles |
 //! | [`pipeline`] | all of it for a mesh: [`draw`] |
 //! | [`angle`], [`reciprocal`] | sine and cosine; 1/x without a divide instruction |
 //! | [`shapes`] | meshes that the project makes itself |
@@ -27,6 +28,7 @@ extern crate std;
 pub mod angle;
 pub mod clip;
 pub mod light;
+pub mod line;
 pub mod matrix;
 pub mod mesh;
 pub mod pipeline;

@@ -2,7 +2,8 @@
 //! that is cut short says how much is missing, and no stream of words hangs the device.
 
 use fpga_regs::packet::{
-    Channels, Clear, EdgeSteps, Fence, FlatTriangle, GouraudTriangle, Header, Kind, Span, TriangleShape, swap,
+    Channels, Clear, EdgeSteps, Fence, FlatTriangle, GouraudTriangle, Header, Kind, PixelMode, Span, TriangleShape,
+    swap,
 };
 use fpga_regs::registers::{Errors, Register};
 use fpga_regs::screen::{PIXELS, PacketDepth, Rgb332, WIDTH};
@@ -14,6 +15,7 @@ use raster_model::Device;
 fn square(colour: u8) -> FlatTriangle {
     FlatTriangle {
         colour: Rgb332(colour),
+        mode: PixelMode::USUAL,
         shape: TriangleShape {
             columns: Span::new(10, 13),
             rows: Span::new(20, 23),
@@ -32,6 +34,7 @@ fn shaded_square() -> GouraudTriangle {
         colour: Channels([200 << 12, 100 << 12, 0]),
         colour_step_x: Channels([1 << 12; 3]),
         colour_step_y: Channels([0; 3]),
+        mode: PixelMode::USUAL,
         shape: square(0).shape,
     }
 }

@@ -1,13 +1,13 @@
 //! What each packet does.
 
 use fpga_regs::Counters;
-use fpga_regs::packet::{Clear, Packet, TriangleShape};
+use fpga_regs::packet::{Clear, Packet, PixelMode, TriangleShape};
 use fpga_regs::registers::{Errors, Interrupts};
 
 use crate::decoder::Decoder;
 use crate::memory::Memory;
-use crate::paint::{Paint, Planes};
-use crate::triangle;
+use crate::paint::{DepthGrey, Paint, Planes};
+use crate::triangle::{self, Nothing};
 
 /// The device behind its FIFO: takes words, draws, counts and raises flags.
 pub(crate) struct Engine<'a> {
@@ -67,8 +67,8 @@ impl<'a> Engine<'a> {
                 colours.fill(colour.0);
                 depths.fill(*depth);
             }
-            Packet::FlatTriangle(triangle) => self.draw(&triangle.shape, triangle.colour),
-            Packet::GouraudTriangle(triangle) => self.draw(&triangle.shape, Planes::from(triangle)),
+            Packet::FlatTriangle(triangle) => self.draw(&triangle.shape, triangle.colour, triangle.mode),
+            Packet::GouraudTriangle(triangle) => self.draw(&triangle.shape, Planes::from(triangle), triangle.mode),
             Packet::Swap => {
                 self.memory.swap();
                 let counters = &mut self.counters;
@@ -82,9 +82,15 @@ impl<'a> Engine<'a> {
         }
     }
 
-    fn draw(&mut self, shape: &TriangleShape, paint: impl Paint) {
+    fn draw(&mut self, shape: &TriangleShape, paint: impl Paint, mode: PixelMode) {
         let (colours, depths) = self.memory.target();
-        let pixels = triangle::draw(shape, paint, colours, depths);
+        let pixels = if mode == PixelMode::USUAL {
+            triangle::draw(shape, paint, Nothing, colours, depths)
+        } else if mode.depth_grey {
+            triangle::draw(shape, DepthGrey, mode, colours, depths)
+        } else {
+            triangle::draw(shape, paint, mode, colours, depths)
+        };
         let counters = &mut self.counters;
         counters.triangles = counters.triangles.wrapping_add(1);
         counters.pixels_tested = counters.pixels_tested.wrapping_add(pixels.tested);

@@ -9,8 +9,8 @@ pub(crate) trait Paint: Copy {
     fn go_right(&mut self, pixels: usize);
     /// Moves one row down.
     fn go_down(&mut self);
-    /// Returns the colour here, which is pixel (`x`, `y`) of the screen.
-    fn colour(&self, x: usize, y: usize) -> u8;
+    /// Returns the colour here, which is pixel (`x`, `y`) of the screen and has that depth.
+    fn colour(&self, x: usize, y: usize, depth: u16) -> u8;
 }
 
 /// The same colour everywhere.
@@ -22,7 +22,7 @@ impl Paint for Rgb332 {
     fn go_down(&mut self) {}
 
     #[inline(always)]
-    fn colour(&self, _: usize, _: usize) -> u8 {
+    fn colour(&self, _: usize, _: usize, _: u16) -> u8 {
         self.0
     }
 }
@@ -57,8 +57,22 @@ impl Paint for Planes {
     }
 
     #[inline(always)]
-    fn colour(&self, x: usize, y: usize) -> u8 {
+    fn colour(&self, x: usize, y: usize, _: u16) -> u8 {
         dithered(self.here.map(saturated), x as u32, y as u32).0
+    }
+}
+
+/// The depth as grey, the farther the darker, dithered.
+#[derive(Clone, Copy)]
+pub(crate) struct DepthGrey;
+
+impl Paint for DepthGrey {
+    fn go_right(&mut self, _: usize) {}
+
+    fn go_down(&mut self) {}
+
+    fn colour(&self, x: usize, y: usize, depth: u16) -> u8 {
+        dithered([!((depth >> 8) as u8); 3], x as u32, y as u32).0
     }
 }
 

@@ -3,9 +3,9 @@
 //! A pixel of the box is *covered* where all three edge values are ≥ 0, 32-bit two's complement
 //! that wraps. Its depth is bits 31…12 of the wrapping sum of the first depth and the steps,
 //! saturated to 0…65,535; where that is less than what the depth buffer holds, colour and depth
-//! are written. Every pixel is visited once, so the order does not matter.
+//! are written, unless the packet's mode keeps one of them. Every pixel is visited once, so the order does not matter.
 
-use fpga_regs::packet::TriangleShape;
+use fpga_regs::packet::{PixelMode, TriangleShape};
 use fpga_regs::screen::{DEPTH_FRACTION_BITS, HEIGHT, WIDTH};
 
 use crate::crossing::Crossing;
@@ -23,27 +23,73 @@ const _: () = assert!(STEP_MAX * (WIDTH + HEIGHT) < 1 << 26);
 /// (measured by `cargo bench`).
 const NARROW: usize = 16;
 
+/// What a triangle leaves as it is.
+pub(crate) trait Keep: Copy {
+    /// Whether depth is neither tested nor written.
+    fn depth(self) -> bool;
+    /// Whether colour is not written.
+    fn colour(self) -> bool;
+}
+
+/// Keeps nothing: its own type, so that what most triangles do has no test in it.
+#[derive(Clone, Copy)]
+pub(crate) struct Nothing;
+
+impl Keep for Nothing {
+    #[inline(always)]
+    fn depth(self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn colour(self) -> bool {
+        false
+    }
+}
+
+impl Keep for PixelMode {
+    fn depth(self) -> bool {
+        self.keep_depth
+    }
+
+    fn colour(self) -> bool {
+        self.keep_colour
+    }
+}
+
 /// How many pixels a triangle covered and changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Pixels {
     /// Covered, so that their depth was tested.
     pub(crate) tested: u32,
-    /// Nearer than what was there, so that they were written.
+    /// Nearer than what was there, or not tested: written, as far as the mode writes.
     pub(crate) written: u32,
 }
 
 /// Draws a triangle whose box lies on the screen. `paint` stands at the box's upper left pixel.
-pub(crate) fn draw(shape: &TriangleShape, paint: impl Paint, colours: &mut Colours, depths: &mut Depths) -> Pixels {
+pub(crate) fn draw(
+    shape: &TriangleShape,
+    paint: impl Paint,
+    keep: impl Keep,
+    colours: &mut Colours,
+    depths: &mut Depths,
+) -> Pixels {
     let wraps = shape.edges.iter().any(|edge| edge.unsigned_abs() >= NO_WRAP);
     if wraps || extent(shape).columns <= NARROW {
-        draw_pixels(shape, paint, colours, depths)
+        draw_pixels(shape, paint, keep, colours, depths)
     } else {
-        draw_spans(shape, paint, colours, depths)
+        draw_spans(shape, paint, keep, colours, depths)
     }
 }
 
 /// Draws a triangle whose edge values wrap nowhere: each row's covered pixels are one span.
-fn draw_spans(shape: &TriangleShape, mut paint: impl Paint, colours: &mut Colours, depths: &mut Depths) -> Pixels {
+fn draw_spans(
+    shape: &TriangleShape,
+    mut paint: impl Paint,
+    keep: impl Keep,
+    colours: &mut Colours,
+    depths: &mut Depths,
+) -> Pixels {
     let Extent { left, top, columns, rows } = extent(shape);
     let steps = shape.all_steps();
     let mut edges: [Crossing; 3] =
@@ -67,7 +113,7 @@ fn draw_spans(shape: &TriangleShape, mut paint: impl Paint, colours: &mut Colour
             let span = start + first..start + end;
             pixels.tested += span.len() as u32;
             for ((shown, nearest), x) in colours[span.clone()].iter_mut().zip(&mut depths[span]).zip(left + first..) {
-                write_if_nearer(shown, nearest, depth, &mut pixels.written, || paint.colour(x, y));
+                write_if_nearer(shown, nearest, depth, keep, &mut pixels.written, |depth| paint.colour(x, y, depth));
                 depth = depth.wrapping_add(depth_step_x);
                 paint.go_right(1);
             }
@@ -77,7 +123,13 @@ fn draw_spans(shape: &TriangleShape, mut paint: impl Paint, colours: &mut Colour
 }
 
 /// Draws any triangle, looking at every pixel of its box.
-fn draw_pixels(shape: &TriangleShape, mut paint: impl Paint, colours: &mut Colours, depths: &mut Depths) -> Pixels {
+fn draw_pixels(
+    shape: &TriangleShape,
+    mut paint: impl Paint,
+    keep: impl Keep,
+    colours: &mut Colours,
+    depths: &mut Depths,
+) -> Pixels {
     let Extent { left, top, columns, rows } = extent(shape);
     let steps = shape.all_steps();
     let (depth_step_x, depth_step_y) = (shape.depth_step_x.to_bits(), shape.depth_step_y.to_bits());
@@ -94,7 +146,9 @@ fn draw_pixels(shape: &TriangleShape, mut paint: impl Paint, colours: &mut Colou
             // The signs of all three at once.
             if edges[0] | edges[1] | edges[2] >= 0 {
                 pixels.tested += 1;
-                write_if_nearer(shown, nearest, depth, &mut pixels.written, || row_paint.colour(x, y));
+                write_if_nearer(shown, nearest, depth, keep, &mut pixels.written, |depth| {
+                    row_paint.colour(x, y, depth)
+                });
             }
             edges = core::array::from_fn(|index| edges[index].wrapping_add(steps[index].0));
             depth = depth.wrapping_add(depth_step_x);
@@ -128,11 +182,22 @@ fn extent(shape: &TriangleShape) -> Extent {
 
 /// Tests a covered pixel's depth, Q20.12; if it is nearer, writes the pixel and counts it.
 #[inline(always)]
-fn write_if_nearer(shown: &mut u8, nearest: &mut u16, depth: i32, written: &mut u32, colour: impl FnOnce() -> u8) {
+fn write_if_nearer(
+    shown: &mut u8,
+    nearest: &mut u16,
+    depth: i32,
+    keep: impl Keep,
+    written: &mut u32,
+    colour: impl FnOnce(u16) -> u8,
+) {
     let depth = (depth >> DEPTH_FRACTION_BITS).clamp(0, i32::from(u16::MAX)) as u16;
-    if depth < *nearest {
-        *nearest = depth;
-        *shown = colour();
+    if keep.depth() || depth < *nearest {
+        if !keep.depth() {
+            *nearest = depth;
+        }
+        if !keep.colour() {
+            *shown = colour(depth);
+        }
         *written += 1;
     }
 }

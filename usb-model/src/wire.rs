@@ -3,6 +3,9 @@
 //! One call is one transaction (USB 2.0 §8.5). Time is given, in microseconds since power-on; a
 //! device keeps no clock of its own, so a run repeats.
 
+use crate::split::Translator;
+use crate::violation::Rule;
+
 /// How fast a device signals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Speed {
@@ -79,4 +82,44 @@ pub trait Device {
 
     /// An OUT transaction.
     fn data_out(&mut self, now: u64, target: Target, toggle: Toggle, bytes: &[u8]) -> Handshake;
+
+    /// The next transaction is for a low-speed device (true: on a full-speed bus a preamble goes before it,
+    /// §8.6.5) or for one of the bus's own speed. Only hubs care.
+    fn low_speed_next(&mut self, _low: bool) {}
+
+    /// Rules that the host broke since the last call; a hub sees some that nobody else does.
+    fn complaints(&mut self) -> Vec<(Rule, String)> {
+        Vec::new()
+    }
+
+    /// The hub's transaction translator, where it has one.
+    fn translator(&mut self) -> Option<&mut dyn Translator> {
+        None
+    }
+}
+
+impl<D: Device + ?Sized> Device for Box<D> {
+    fn speed(&self, fastest: Speed) -> Speed {
+        (**self).speed(fastest)
+    }
+
+    fn reset(&mut self, now: u64, speed: Speed) {
+        (**self).reset(now, speed);
+    }
+
+    fn setup(&mut self, now: u64, target: Target, packet: [u8; 8]) -> Handshake {
+        (**self).setup(now, target, packet)
+    }
+
+    fn data_in(&mut self, now: u64, target: Target) -> Answer {
+        (**self).data_in(now, target)
+    }
+
+    fn acknowledged(&mut self, now: u64, target: Target) {
+        (**self).acknowledged(now, target);
+    }
+
+    fn data_out(&mut self, now: u64, target: Target, toggle: Toggle, bytes: &[u8]) -> Handshake {
+        (**self).data_out(now, target, toggle, bytes)
+    }
 }

@@ -1,15 +1,21 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
+mod values;
+
 use std::fmt::{self, Write as _};
 use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 
 use crate::commands;
+use crate::qemu::UsbIds;
+use values::{parse_rotation, parse_usb_ids};
+
+pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
-    ("See it work", &["demo", "run"]),
+    ("See it work", &["demo", "run", "pad"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
     ("Check and measure", &["test", "bench"]),
     ("Keep generated files fresh", &["generate"]),
@@ -50,6 +56,11 @@ pub enum Task {
     /// With --headless the recorded session of the demo moves the scenes, from its first frame
     /// on, and again from there when it is over; every run gives the same frames.
     Run(RunArguments),
+    /// Plays a session as a DualShock 3 at a socket, for run --pad
+    ///
+    /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
+    /// is over, until Ctrl-C.
+    Pad(PadArguments),
     /// Draws an OBJ model to a PNG file
     ///
     /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
@@ -77,27 +88,30 @@ pub enum Task {
 }
 
 /// A board the firmware runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Board {
     /// ARM Versatile Express with a Cortex-A9, as QEMU models it
     VexpressA9,
+    /// Raspberry Pi 2 with the DE1-SoC's USB controller, as QEMU models it
+    Raspi2b,
     /// Terasic DE1-SoC: builds, but nothing here can run it yet
     De1Soc,
 }
 
 impl Board {
     /// All boards.
-    pub const ALL: [Self; 2] = [Self::VexpressA9, Self::De1Soc];
+    pub const ALL: [Self; 3] = [Self::VexpressA9, Self::Raspi2b, Self::De1Soc];
 
     /// Returns whether QEMU has the board.
     pub const fn runs_in_qemu(self) -> bool {
-        matches!(self, Self::VexpressA9)
+        matches!(self, Self::VexpressA9 | Self::Raspi2b)
     }
 
     /// Returns the board's name: the firmware's feature and binary have the same.
     pub const fn name(self) -> &'static str {
         match self {
             Self::VexpressA9 => "vexpress-a9",
+            Self::Raspi2b => "raspi2b",
             Self::De1Soc => "de1-soc",
         }
     }
@@ -117,9 +131,13 @@ pub struct DemoArguments {
     pub board: Board,
 }
 
-/// Flags of `test`: none.
+/// Flags of `test`.
 #[derive(Debug, Args)]
-pub struct TestArguments {}
+pub struct TestArguments {
+    /// Runs only the steps with TEXT in their name (`usb`, say), and the builds that they need
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+}
 
 /// Flags of `run`.
 #[derive(Debug, Args)]
@@ -133,9 +151,27 @@ pub struct RunArguments {
     /// Number of frames to draw (with --headless)
     #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: Option<u32>,
+    /// Plugs in what a usbredir server at this Unix socket has: `cargo xtask pad SOCKET`, say
+    #[arg(long, value_name = "SOCKET", conflicts_with = "headless")]
+    pub pad: Option<PathBuf>,
+    /// Hands a USB device of this computer to the board, by its ids as lsusb shows them; see the
+    /// README on permissions
+    #[arg(long, value_name = "VENDOR:PRODUCT", conflicts_with = "headless", value_parser = parse_usb_ids)]
+    pub usb_host: Option<UsbIds>,
     /// Folder for the frames (with --headless)
     #[arg(long, value_name = "DIR", requires = "headless")]
     pub output: Option<PathBuf>,
+}
+
+/// Flags of `pad`.
+#[derive(Debug, Args)]
+pub struct PadArguments {
+    /// Unix socket to listen at; it is made
+    #[arg(value_name = "SOCKET")]
+    pub socket: PathBuf,
+    /// Session to play instead of the demo's
+    #[arg(long, value_name = "FILE")]
+    pub session: Option<PathBuf>,
 }
 
 /// Flags of `render`.
@@ -166,13 +202,6 @@ pub struct RenderArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
-}
-
-/// Angles about the x, y and z axis, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rotation {
-    /// Degrees about the x, y and z axis, each finite.
-    pub degrees: [f64; 3],
 }
 
 /// Flags of `replay`.
@@ -231,6 +260,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Demo(arguments) => commands::demo::run(arguments),
         Task::Test(arguments) => commands::test::run(arguments),
         Task::Run(arguments) => commands::run::run(arguments),
+        Task::Pad(arguments) => commands::pad::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
@@ -259,23 +289,6 @@ fn grouped_commands(command: &Command) -> String {
         text.push('\n');
     }
     text
-}
-
-/// Reads `X,Y,Z` as three finite angles in degrees.
-fn parse_rotation(text: &str) -> Result<Rotation, String> {
-    let remedy = "give three numbers of degrees with commas between, like 20,-30,0";
-    let parts: Vec<&str> = text.split(',').collect();
-    let [x, y, z] = parts.as_slice() else {
-        return Err(format!("{} numbers instead of 3: {remedy}", parts.len()));
-    };
-    let mut degrees = [0.0; 3];
-    for (angle, part) in degrees.iter_mut().zip([x, y, z]) {
-        *angle = match part.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => number,
-            _ => return Err(format!("`{part}` is no angle: {remedy}")),
-        };
-    }
-    Ok(Rotation { degrees })
 }
 
 #[cfg(test)]
@@ -317,14 +330,6 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_rotation_names_the_remedy() {
-        for wrong in ["1,2", "1,2,x", "1,2,inf", "", "1,2,3,4"] {
-            let message = parse_rotation(wrong).expect_err(wrong);
-            assert!(message.contains("like 20,-30,0"), "{message}");
-        }
-    }
-
-    #[test]
     fn headless_wants_frames_and_a_folder() {
         assert!(parse("run").is_ok());
         assert!(parse("run --headless --frames 3 --output d").is_ok());
@@ -338,7 +343,12 @@ mod tests {
         for line in [
             "demo",
             "demo --board vexpress-a9",
+            "demo --board raspi2b",
+            "run --board raspi2b --pad s",
+            "run --board raspi2b --usb-host 054c:0268",
+            "pad s --session f",
             "test",
+            "test --only usb",
             "replay w -o o.png --depth d",
             "decode w",
             "bench --json",

@@ -4,6 +4,7 @@ pub mod bench;
 pub mod decode;
 pub mod demo;
 pub mod generate;
+pub mod pad;
 pub mod render;
 pub mod replay;
 pub mod run;

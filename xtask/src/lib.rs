@@ -10,6 +10,7 @@
 //! | [`qemu`] | one running QEMU with its console, link and log; [`qmp`] is its remote control |
 //! | [`machine`] | QEMU, or this process, as something that is stepped frame by frame |
 //! | [`session`] | what a controller said, frame by frame, and playing it on a machine |
+//! | [`fake_pad`] | a DualShock 3 for QEMU that says what it is told to |
 //! | [`demo`] | the demonstration session on a machine; [`report`] what it took, [`golden`] what it must show |
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
@@ -35,6 +36,7 @@ pub mod cli;
 pub mod commands;
 pub mod console;
 pub mod demo;
+pub mod fake_pad;
 pub mod firmware_build;
 pub mod generated;
 pub mod golden;

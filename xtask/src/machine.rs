@@ -5,7 +5,7 @@ mod host;
 
 use anyhow::bail;
 use controls::serial::{self, Decoder, FRAME_SIZE_MAXIMUM, kind};
-use firmware::link::{self, BoardMessage, Fault, FrameReport, HostMessage};
+use firmware::link::{self, BoardMessage, Fault, FrameReport, HostMessage, Status};
 
 use crate::picture::Picture;
 
@@ -108,6 +108,25 @@ impl<'a, M: Machine + ?Sized> Link<'a, M> {
     /// When the board does not take the message in time.
     pub fn fault(&mut self, fault: Fault) -> anyhow::Result<()> {
         self.tell(HostMessage::Fault(fault))
+    }
+
+    /// Asks how it goes.
+    ///
+    /// # Errors
+    /// When no answer comes in time.
+    pub fn status(&mut self) -> anyhow::Result<Status> {
+        match self.ask(HostMessage::Ask, "how it goes")? {
+            BoardMessage::Status(status) => Ok(status),
+            other => bail!("the firmware answers {other:?} when asked how it goes"),
+        }
+    }
+
+    /// Lets the machine draw frames by itself again.
+    ///
+    /// # Errors
+    /// When the board does not take the message in time.
+    pub fn run_freely(&mut self) -> anyhow::Result<()> {
+        self.tell(HostMessage::Run)
     }
 
     /// Draws a frame and returns the board's report of it.

@@ -1,10 +1,10 @@
-//! One running QEMU of the board vexpress-a9, with all its connections.
+//! One running QEMU, with all its connections.
 //!
-//! | serial port | what it carries | here |
-//! | --- | --- | --- |
-//! | UART 0 | console: lines of text | [`Qemu::console`] |
-//! | UART 1 | link: bytes both ways | [`Qemu::send`], [`Qemu::receive`], [`Qemu::link`] |
-//! | UART 2 | defmt log | [`Qemu::take_log`], for [`LogDecoder`](crate::log_decoder::LogDecoder) |
+//! | serial port on vexpress-a9 | on raspi2b | what it carries | here |
+//! | --- | --- | --- | --- |
+//! | UART 0 | mini UART | console: lines of text | [`Qemu::console`] |
+//! | UART 1 | UART 0 | link: bytes both ways | [`Qemu::send`], [`Qemu::receive`], [`Qemu::link`] |
+//! | UART 2 | none | defmt log | [`Qemu::take_log`], for [`LogDecoder`](crate::log_decoder::LogDecoder) |
 //!
 //! QEMU starts paused and connects to sockets that this process listens on already, so no byte
 //! is lost: the machine runs from [`Qemu::resume`] on. It is killed when the value goes.
@@ -14,6 +14,7 @@ mod options;
 mod process;
 #[cfg(test)]
 mod tests;
+mod usb_device;
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::net::UnixStream;
@@ -22,9 +23,11 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
+use serde_json::json;
 
 pub use options::{Display, QemuOptions};
 use process::Process;
+pub use usb_device::{UsbDevice, UsbIds};
 
 use crate::console::Console;
 use crate::paths::TemporaryFolder;
@@ -141,7 +144,7 @@ impl Qemu {
         self.link.try_clone()
     }
 
-    /// Returns the log's stream, once; to be taken before [`resume`](Self::resume).
+    /// Returns the log's stream, once, on a board that has one; to be taken before [`resume`](Self::resume).
     pub fn take_log(&mut self) -> Option<UnixStream> {
         self.log.take()
     }
@@ -155,6 +158,24 @@ impl Qemu {
         let path = self.folder.path().join("screen.ppm");
         self.qmp.screendump(&path).map_err(|error| self.explain(error))?;
         read_ppm(&path)
+    }
+
+    /// Plugs a device into the machine's USB bus.
+    ///
+    /// # Errors
+    ///
+    /// When QEMU refuses it, with its reason.
+    pub fn plug(&mut self, device: &UsbDevice) -> anyhow::Result<()> {
+        self.qmp.execute("device_add", device.plug()).map(drop).map_err(|error| self.explain(error))
+    }
+
+    /// Pulls a device out that is plugged in.
+    ///
+    /// # Errors
+    ///
+    /// When QEMU refuses it, with its reason.
+    pub fn unplug(&mut self, device: &UsbDevice) -> anyhow::Result<()> {
+        self.qmp.execute("device_del", json!({ "id": device.id() })).map(drop).map_err(|error| self.explain(error))
     }
 
     /// Returns the remote control: keys, pause, all else.

@@ -4,7 +4,7 @@
 
 use core::fmt::Write;
 use cortex_a_rt::entry;
-use firmware::cortex_a9::exceptions::{Hooks, park};
+use firmware::armv7a::exceptions::{Hooks, park};
 use firmware::cortex_a9::start;
 use firmware::de1_soc::memory_map::{CLUSTER, CONSOLE, TRANSLATION_TABLE};
 use firmware::de1_soc::uart16550::Transmitter;

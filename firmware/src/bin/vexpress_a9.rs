@@ -4,7 +4,7 @@
 
 use cortex_a_rt::entry;
 use firmware::app::Memory;
-use firmware::vexpress_a9::model_port::ModelMemory;
+use firmware::software_fpga::ModelMemory;
 use firmware::vexpress_a9::{Board, exit, viewer};
 use static_cell::ConstStaticCell;
 

@@ -109,7 +109,7 @@ impl L2c310 {
     /// # Errors
     /// [`L2Error::Stuck`].
     pub fn clean(&mut self, address: u32, bytes: u32) -> Result<(), L2Error> {
-        for line in super::cache_geometry::lines(address, bytes) {
+        for line in crate::armv7a::cache_geometry::lines(address, bytes) {
             self.registers.write(Offset::CleanLine, line);
             self.wait(Offset::CleanLine, 1)?;
         }
@@ -125,7 +125,7 @@ impl L2c310 {
     /// # Errors
     /// [`L2Error::Stuck`].
     pub unsafe fn invalidate(&mut self, address: u32, bytes: u32) -> Result<(), L2Error> {
-        for line in super::cache_geometry::lines(address, bytes) {
+        for line in crate::armv7a::cache_geometry::lines(address, bytes) {
             self.registers.write(Offset::InvalidateLine, line);
             self.wait(Offset::InvalidateLine, 1)?;
         }

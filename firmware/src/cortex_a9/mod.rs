@@ -2,36 +2,17 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `start` | from the first instruction to MMU and caches on |
-//! | `mmu`, `translation_table` | the flat 1 MiB section table, and turning it on |
-//! | `cache`, `cache_geometry`, `l2c310` | L1 maintenance, the L2 cache controller |
+//! | `start` | snoop control unit, L2 cache, MMU and L1 caches, in their order |
+//! | `l2c310` | the L2 cache controller |
 //! | `gic` | interrupt controller |
 //! | `private_timer`, `global_timer` | periodic interrupt; 64-bit time and delays |
-//! | `sleep` | sleeping until an interrupt |
-//! | `exceptions`, `fault_status` | fault and panic reports |
-//! | `semihosting` | leaving an emulator with an exit code |
 
-#[cfg(target_arch = "arm")]
-pub mod cache;
-pub mod cache_geometry;
-#[cfg(target_arch = "arm")]
-pub mod exceptions;
-#[cfg(all(target_arch = "arm", feature = "fault-injection"))]
-pub mod fault_injection;
-pub mod fault_status;
 pub mod gic;
 pub mod global_timer;
 pub mod l2c310;
-#[cfg(target_arch = "arm")]
-pub mod mmu;
 pub mod private_timer;
 #[cfg(target_arch = "arm")]
-pub mod semihosting;
-#[cfg(target_arch = "arm")]
-pub mod sleep;
-#[cfg(target_arch = "arm")]
 pub mod start;
-pub mod translation_table;
 
 /// Where a board's processor cluster lies, and its clock.
 ///

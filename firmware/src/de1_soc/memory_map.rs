@@ -3,8 +3,8 @@
 //! Sources: the base addresses of U-Boot's `base_addr_ac5.h` and Intel's `hps.h`; clocks as
 //! U-Boot's SPL sets them on this board.
 
+use crate::armv7a::translation_table::{Memory, Region, TranslationTable};
 use crate::cortex_a9::Cluster;
-use crate::cortex_a9::translation_table::{Memory, Region, TranslationTable};
 
 /// The processor cluster. PERIPHCLK is a quarter of the processor's 800 MHz.
 pub const CLUSTER: Cluster =

@@ -7,14 +7,15 @@ use super::memory_map::{
     CLUSTER, CONSOLE, DISPLAY, FRAMES, KEYBOARD, KEYBOARD_HERTZ, KEYBOARD_INTERRUPT, LINK, LINK_INTERRUPT,
     TRANSLATION_TABLE, UART_HERTZ, USER_LEDS,
 };
-use super::pl011::{Config, Console, Link};
 use super::pl050::Keyboard;
-use super::pl111::Display;
-use crate::cortex_a9::exceptions::Hooks;
+use super::pl111::Pl111;
+use crate::armv7a::exceptions::Hooks;
+use crate::armv7a::semihosting;
 use crate::cortex_a9::gic::{Distributor, Interface, InterruptId};
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
 use crate::cortex_a9::private_timer::PrivateTimer;
-use crate::cortex_a9::{semihosting, start};
+use crate::cortex_a9::start;
+use crate::pl011::{Config, Console, Link};
 use core::cell::Cell;
 use core::fmt::Write;
 use critical_section::Mutex;
@@ -40,7 +41,7 @@ pub struct Board {
     /// The PS/2 keyboard.
     pub keyboard: Keyboard,
     /// 640 × 480 pixels.
-    pub display: Display,
+    pub display: Pl111,
     /// Time since start.
     pub clock: GlobalTimer,
     /// Delays.
@@ -109,7 +110,7 @@ impl Board {
                 console,
                 link,
                 keyboard,
-                display: Display::new(DISPLAY, FRAMES),
+                display: Pl111::new(DISPLAY, FRAMES),
                 clock,
                 delay: Delay::new(clock),
                 timer,

@@ -1,10 +1,10 @@
 //! Which interrupt does what.
 
 use super::memory_map::{KEYBOARD_INTERRUPT, LINK_INTERRUPT};
-use super::pl011::LinkInterrupt;
 use super::pl050::KeyboardInterrupt;
 use crate::cortex_a9::gic::{Interface, InterruptId};
 use crate::cortex_a9::private_timer::TimerInterrupt;
+use crate::pl011::LinkInterrupt;
 use core::cell::RefCell;
 use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_a_rt::irq;

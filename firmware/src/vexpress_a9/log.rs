@@ -1,8 +1,8 @@
 //! The log: defmt frames on UART2, in defmt's default encoding (rzCOBS).
 
 use super::memory_map::{CLUSTER, LOG, UART_HERTZ};
-use super::pl011::{Config, Transmitter};
 use crate::cortex_a9::global_timer::GlobalTimer;
+use crate::pl011::{Config, Transmitter};
 use core::cell::{Cell, RefCell};
 use critical_section::{CriticalSection, Mutex, RestoreState};
 use defmt::Encoder;

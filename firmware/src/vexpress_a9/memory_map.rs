@@ -1,8 +1,8 @@
 //! Where everything is (ARM DUI 0448, "CoreTile Express A9x4", and its motherboard's legacy map).
 
+use crate::armv7a::translation_table::{Memory, Region, TranslationTable};
 use crate::cortex_a9::Cluster;
 use crate::cortex_a9::gic::InterruptId;
-use crate::cortex_a9::translation_table::{Memory, Region, TranslationTable};
 use crate::vexpress_a9::pl111::FRAME_PIXELS;
 
 /// The processor cluster. QEMU's timers count 10 ns ticks, whatever the real board's do.
@@ -36,7 +36,7 @@ pub const LINK_INTERRUPT: InterruptId = InterruptId(38);
 /// KMI0's interrupt.
 pub const KEYBOARD_INTERRUPT: InterruptId = InterruptId(44);
 
-/// What the MMU maps; the linker's view is `memory/vexpress-a9.x`.
+/// What the MMU maps; the linker's view is `memory.x` with the numbers of `build.rs`.
 pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
     Region { start: 0x1000_0000, sections: 1, memory: Memory::Device },
     Region { start: 0x1E00_0000, sections: 1, memory: Memory::Device },

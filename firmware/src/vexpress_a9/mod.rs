@@ -16,9 +16,6 @@ pub mod leds;
 #[cfg(all(target_arch = "arm", feature = "vexpress-a9"))]
 mod log;
 pub mod memory_map;
-#[cfg(all(target_arch = "arm", feature = "vexpress-a9"))]
-pub mod model_port;
-pub mod pl011;
 pub mod pl050;
 pub mod pl111;
 #[cfg(all(target_arch = "arm", feature = "vexpress-a9"))]

@@ -1,14 +1,12 @@
 //! The display: a PL111 with two frames (ARM DDI 0293).
 
 use crate::mmio::{Register, Registers};
+use crate::software_fpga::{DISPLAY_HEIGHT, DISPLAY_WIDTH, Display};
 use core::ptr::NonNull;
 
-/// Pixels in a row.
-pub const WIDTH: usize = 640;
-/// Rows in a frame.
-pub const HEIGHT: usize = 480;
 /// Pixels in a frame.
-pub const FRAME_PIXELS: usize = WIDTH * HEIGHT;
+pub const FRAME_PIXELS: usize = DISPLAY_WIDTH * DISPLAY_HEIGHT;
+const _: () = assert!(DISPLAY_WIDTH == 640 && DISPLAY_HEIGHT == 480, "the timing below is for 640 × 480 pixels");
 
 /// On, 24 bits in 32, a TFT panel, power on. BGR puts red into bits 23 to 16.
 const CONTROL: u32 = 1 << 0 | 0b101 << 1 | 1 << 5 | 1 << 8 | 1 << 11;
@@ -36,16 +34,16 @@ impl Register for Offset {
 }
 
 /// A display of 640 × 480 pixels, each 0x00RRGGBB. One frame shows while the other is drawn.
-pub struct Display {
+pub struct Pl111 {
     registers: Registers<Offset>,
     frames: [NonNull<[u32; FRAME_PIXELS]>; 2],
     back: usize,
 }
 
 // SAFETY: the display owns its frames and its device.
-unsafe impl Send for Display {}
+unsafe impl Send for Pl111 {}
 
-impl Display {
+impl Pl111 {
     /// Clears both frames and turns the display on.
     ///
     /// # Safety
@@ -77,24 +75,25 @@ impl Display {
         display
     }
 
-    /// Returns the frame that does not show, row by row from the top: pixel (x, y) is at
-    /// `y * WIDTH + x`. It holds what was drawn two frames ago.
-    pub fn back(&mut self) -> &mut [u32; FRAME_PIXELS] {
+    fn set_base(&self, frame: usize) {
+        self.registers.write(Offset::UpperBase, self.frames[frame].addr().get() as u32);
+    }
+}
+
+impl Display for Pl111 {
+    const STRIDE: usize = DISPLAY_WIDTH;
+
+    fn back(&mut self) -> &mut [u32] {
         // SAFETY: `new`'s caller gave the frame to this display alone, it is all pixels, and the
         // borrow of `self` keeps a second reference away.
         unsafe { self.frames[self.back].as_mut() }
     }
 
-    /// Shows the back frame from the next vertical blank on, without waiting for it: what is
-    /// drawn until then may show.
-    pub fn present_without_wait(&mut self) {
+    /// Shows the back frame from the next vertical blank on.
+    fn present(&mut self) {
         // The pixels are Normal memory, the register is Device memory: order the two.
         core::sync::atomic::fence(core::sync::atomic::Ordering::SeqCst);
         self.set_base(self.back);
         self.back = 1 - self.back;
-    }
-
-    fn set_base(&self, frame: usize) {
-        self.registers.write(Offset::UpperBase, self.frames[frame].addr().get() as u32);
     }
 }

@@ -1,20 +1,20 @@
 //! The board as the application wants it.
 
-use controls::Controls;
-use embedded_hal::delay::DelayNs;
+use controls::Report;
 use embedded_hal::digital::OutputPin;
 use embedded_io::{Read, ReadReady, Write};
-use fpga_regs::{RenderError, Renderer, Timeouts, Wait};
 
-use super::model_port::{ModelMemory, ModelPort};
-use super::pl011::{Console, Link};
 use super::pl050::Keyboard;
+use super::pl111::Pl111;
 use super::{Board as Drivers, leds::Led, ticks};
 use crate::app::{Application, Memory};
+use crate::armv7a::sleep::sleep_unless;
 use crate::board::Board;
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
 use crate::cortex_a9::private_timer::PrivateTimer;
-use crate::cortex_a9::sleep::sleep_unless;
+use crate::intake::Intake;
+use crate::pl011::{Console, Link};
+use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
 
 /// What the FPGA's VGA output shows, nearly: 59.94 in a second.
 const FRAMES_PER_SECOND: u32 = 60;
@@ -36,51 +36,15 @@ pub struct ViewerBoard {
 /// Returns the application on this board.
 ///
 /// # Errors
-/// A text that names what did not start.
+/// What did not start.
 pub fn application(
     drivers: Drivers,
     model_memory: &'static mut ModelMemory,
     memory: &'static mut Memory,
-) -> Result<Application<'static, ViewerBoard, DelayWait>, StartError> {
-    let Drivers { console, link, keyboard, display, clock, timer, leds: [heartbeat, ..], .. } = drivers;
-    let port = ModelPort::new(model_memory, display).map_err(StartError::Model)?;
-    let renderer =
-        Renderer::new(port, DelayWait(Delay::new(clock)), Timeouts::default()).map_err(StartError::Renderer)?;
+) -> Result<Application<'static, ViewerBoard, ClockWait<Delay>>, StartError> {
+    let Drivers { console, link, keyboard, display, clock, delay, timer, leds: [heartbeat, ..], .. } = drivers;
     let board = ViewerBoard { console, link, keyboard, clock, timer, heartbeat, last_tick: None };
-    Application::new(board, renderer, memory).map_err(StartError::Mesh)
-}
-
-/// Why the application did not start.
-#[derive(Debug)]
-pub enum StartError {
-    /// The software model did not take its memory.
-    Model(raster_model::SizeError),
-    /// The renderer did not find its device as it should be.
-    Renderer(RenderError),
-    /// A built-in mesh is malformed.
-    Mesh(geometry::MeshError),
-}
-
-impl core::fmt::Display for StartError {
-    fn fmt(&self, out: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Model(error) => error.fmt(out),
-            Self::Renderer(error) => error.fmt(out),
-            Self::Mesh(error) => error.fmt(out),
-        }
-    }
-}
-
-/// Waits by the clock: the model has no interrupt.
-pub struct DelayWait(Delay);
-
-impl Wait for DelayWait {
-    const INTERRUPT: bool = false;
-
-    fn wait(&mut self, micros: u32) -> u32 {
-        self.0.delay_us(micros);
-        micros
-    }
+    software_fpga::application(board, display, delay, model_memory, memory)
 }
 
 impl Board for ViewerBoard {
@@ -88,7 +52,7 @@ impl Board for ViewerBoard {
     const LACKS: &'static str = "no FPGA here, the software model draws; no USB, the keyboard is PS/2";
     const TICKS_PER_SECOND: u32 = super::memory_map::CLUSTER.timer_hertz;
     type Console = Console;
-    type Port = ModelPort;
+    type Port = ModelPort<Pl111>;
 
     fn ticks(&self) -> u64 {
         self.clock.ticks()
@@ -98,10 +62,10 @@ impl Board for ViewerBoard {
         &mut self.console
     }
 
-    fn poll_controllers(&mut self, controls: &mut Controls) -> u32 {
+    fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
         let mut unreadable = 0;
         while let Some(report) = self.keyboard.poll() {
-            unreadable += u32::from(controls.accept_keyboard(&report).is_err());
+            unreadable += u32::from(intake.accept(Report::Keyboard(&report)).is_err());
         }
         unreadable
     }
@@ -116,7 +80,7 @@ impl Board for ViewerBoard {
         }
     }
 
-    fn picture_checksum(&mut self, port: &mut ModelPort) -> Option<u32> {
+    fn picture_checksum(&mut self, port: &mut ModelPort<Pl111>) -> Option<u32> {
         Some(port.checksum())
     }
 

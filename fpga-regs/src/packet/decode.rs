@@ -31,7 +31,7 @@ impl Packet {
     /// is [`BadPacket::Length`].
     pub fn decode(header: Header, payload: &[u32]) -> Result<Self, BadPacket> {
         let kind = header.check()?;
-        let colour = Rgb332(header.colour());
+        let (colour, mode) = (Rgb332(header.colour()), header.mode());
         match (kind, payload) {
             (Kind::Clear, &[depth]) => {
                 let depth = ClearDepth(depth);
@@ -42,7 +42,7 @@ impl Packet {
             }
             (Kind::FlatTriangle, words) => {
                 let shape = words.try_into().map_err(|_| BadPacket::Length)?;
-                Ok(Packet::FlatTriangle(FlatTriangle { colour, shape: TriangleShape::decode(shape)? }))
+                Ok(Packet::FlatTriangle(FlatTriangle { colour, mode, shape: TriangleShape::decode(shape)? }))
             }
             (Kind::GouraudTriangle, &[low, high, x_low, x_high, y_low, y_high, ref shape @ ..]) => {
                 let shape = shape.try_into().map_err(|_| BadPacket::Length)?;
@@ -50,6 +50,7 @@ impl Packet {
                     colour: Channels::decode([low, high])?,
                     colour_step_x: Channels::decode([x_low, x_high])?,
                     colour_step_y: Channels::decode([y_low, y_high])?,
+                    mode,
                     shape: TriangleShape::decode(shape)?,
                 }))
             }

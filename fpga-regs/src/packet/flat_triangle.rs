@@ -1,6 +1,6 @@
 //! The triangle of one colour.
 
-use super::{Header, Kind, TriangleShape, WordInfo};
+use super::{Header, Kind, PixelMode, TriangleShape, WordInfo};
 use crate::screen::Rgb332;
 
 /// A triangle of one colour, set up.
@@ -8,6 +8,8 @@ use crate::screen::Rgb332;
 pub struct FlatTriangle {
     /// Colour of every pixel.
     pub colour: Rgb332,
+    /// What its pixels do.
+    pub mode: PixelMode,
     /// Where it lies.
     pub shape: TriangleShape,
 }
@@ -21,7 +23,8 @@ impl FlatTriangle {
     /// Returns the packet's words.
     #[inline(always)]
     pub fn encode(&self) -> [u32; Self::WORDS] {
-        let mut words = [Header::of(Kind::FlatTriangle).0 | u32::from(self.colour.0); Self::WORDS];
+        let header = Header::of(Kind::FlatTriangle).with_colour(self.colour.0).with_mode(self.mode);
+        let mut words = [header.0; Self::WORDS];
         words[1..].copy_from_slice(&self.shape.encode());
         words
     }

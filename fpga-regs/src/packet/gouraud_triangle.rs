@@ -1,6 +1,6 @@
 //! The triangle whose colour changes from corner to corner.
 
-use super::{BadPacket, Header, Kind, TriangleShape, WordInfo};
+use super::{BadPacket, Header, Kind, PixelMode, TriangleShape, WordInfo};
 use crate::screen::COLOUR_FRACTION_BITS;
 
 word! {
@@ -74,6 +74,8 @@ pub struct GouraudTriangle {
     pub colour_step_x: Channels,
     /// Colour step of one row down.
     pub colour_step_y: Channels,
+    /// What its pixels do.
+    pub mode: PixelMode,
     /// Where it lies.
     pub shape: TriangleShape,
 }
@@ -103,7 +105,7 @@ impl GouraudTriangle {
 
     /// Returns the packet's words.
     pub fn encode(&self) -> [u32; Self::WORDS] {
-        let mut words = [Header::of(Kind::GouraudTriangle).0; Self::WORDS];
+        let mut words = [Header::of(Kind::GouraudTriangle).with_mode(self.mode).0; Self::WORDS];
         let (colours, shape) = words[1..].split_at_mut(Self::COLOUR_WORDS);
         for (place, channels) in
             colours.chunks_exact_mut(Channels::WORDS).zip([self.colour, self.colour_step_x, self.colour_step_y])

@@ -53,6 +53,11 @@ impl Kind {
         matches!(self, Kind::Clear | Kind::FlatTriangle)
     }
 
+    /// Returns whether the header may hold a [`PixelMode`]; otherwise its bits are reserved.
+    pub const fn has_mode(self) -> bool {
+        matches!(self, Kind::FlatTriangle | Kind::GouraudTriangle)
+    }
+
     /// Returns the kind's row in the packet table.
     pub const fn info(self) -> PacketInfo {
         match self {
@@ -112,8 +117,14 @@ word! {
     Header {
         /// RGB332 colour of a clear or a flat triangle; zero in other kinds.
         colour / with_colour: [7:0] u8,
+        /// Triangles only: tests no depth and leaves depth as it is.
+        keep_depth / with_keep_depth: [8:8] bool,
+        /// Triangles only: leaves colour as it is.
+        keep_colour / with_keep_colour: [9:9] bool,
+        /// Triangles only: the colour is the depth as grey, the farther the darker.
+        depth_grey / with_depth_grey: [10:10] bool,
         /// Zero; room for later modes.
-        reserved / with_reserved: [15:8] u8,
+        reserved / with_reserved: [15:11] u8,
         /// How many words follow.
         length / with_length: [23:16] u8,
         /// What the packet asks for.
@@ -128,17 +139,49 @@ impl Header {
         Self((kind as u32) << 24 | (kind.length() as u32) << 16)
     }
 
+    /// Returns this header with a mode.
+    #[must_use]
+    pub fn with_mode(self, mode: PixelMode) -> Self {
+        self.with_keep_depth(mode.keep_depth).with_keep_colour(mode.keep_colour).with_depth_grey(mode.depth_grey)
+    }
+
+    /// Returns the mode.
+    pub fn mode(self) -> PixelMode {
+        PixelMode { keep_depth: self.keep_depth(), keep_colour: self.keep_colour(), depth_grey: self.depth_grey() }
+    }
+
     /// Returns the packet's kind, or why the header is bad.
     pub fn check(self) -> Result<Kind, BadPacket> {
         let kind = Kind::from_number(self.kind()).ok_or(BadPacket::Kind)?;
         if usize::from(self.length()) != kind.length() {
             return Err(BadPacket::Length);
         }
-        if self.reserved() != 0 || !kind.has_colour() && self.colour() != 0 {
+        let colour = !kind.has_colour() && self.colour() != 0;
+        let mode = !kind.has_mode() && self.mode() != PixelMode::USUAL;
+        if self.reserved() != 0 || colour || mode {
             return Err(BadPacket::Reserved);
         }
         Ok(kind)
     }
+}
+
+/// What a triangle's covered pixels do.
+///
+/// Usual is: a pixel that is nearer than what is there replaces its depth and its colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PixelMode {
+    /// Tests no depth and leaves depth as it is: for what lies on top, like an overlay.
+    pub keep_depth: bool,
+    /// Leaves colour as it is: for what only hides, like the faces behind visible lines.
+    pub keep_colour: bool,
+    /// The colour is grey: 255 minus the upper 8 bits of the depth, dithered as a Gouraud triangle is.
+    pub depth_grey: bool,
+}
+
+impl PixelMode {
+    /// The usual mode.
+    pub const USUAL: Self = Self { keep_depth: false, keep_colour: false, depth_grey: false };
 }
 
 /// Why a packet is bad.

@@ -2,7 +2,7 @@ use super::*;
 use crate::screen::{PacketDepth, Rgb332};
 
 fn triangle() -> FlatTriangle {
-    FlatTriangle { colour: Rgb332(0xe3), shape: shape() }
+    FlatTriangle { colour: Rgb332(0xe3), mode: PixelMode::USUAL, shape: shape() }
 }
 
 fn shape() -> TriangleShape {
@@ -22,6 +22,7 @@ fn gouraud() -> GouraudTriangle {
         colour: Channels([0x1f_ffff, 0x00_0001, 0x10_0000]),
         colour_step_x: Channels([1, 0x1f_f7ff, 2]),
         colour_step_y: Channels([0, 0x00_0800, 0x1f_ffff]),
+        mode: PixelMode::USUAL,
         shape: shape(),
     }
 }
@@ -39,6 +40,19 @@ fn every_kind_comes_back_as_it_was_encoded() {
     assert_eq!(round_trip(&swap()), Ok(Packet::Swap));
     let fence = Fence { tag: 0xdead_beef };
     assert_eq!(round_trip(&fence.encode()), Ok(Packet::Fence(fence)));
+}
+
+#[test]
+fn a_mode_is_three_bits_of_the_header() {
+    for bits in 0..8 {
+        let mode = PixelMode { keep_depth: bits & 1 != 0, keep_colour: bits & 2 != 0, depth_grey: bits & 4 != 0 };
+        let flat = FlatTriangle { mode, ..triangle() };
+        assert_eq!(flat.encode()[0], 0x020a_00e3 | bits << 8);
+        assert_eq!(round_trip(&flat.encode()), Ok(Packet::FlatTriangle(flat)));
+        let gouraud = GouraudTriangle { mode, ..gouraud() };
+        assert_eq!(gouraud.encode()[0], 0x0310_0000 | bits << 8);
+        assert_eq!(round_trip(&gouraud.encode()), Ok(Packet::GouraudTriangle(gouraud)));
+    }
 }
 
 #[test]
@@ -82,7 +96,11 @@ fn each_rule_makes_its_own_bad_packet() {
     };
     assert_eq!(with(0, 0), Err(BadPacket::Kind));
     assert_eq!(with(0, 0x0209_0000), Err(BadPacket::Length));
-    assert_eq!(with(0, 0x020a_0100), Err(BadPacket::Reserved));
+    assert_eq!(with(0, 0x020a_0800), Err(BadPacket::Reserved));
+    assert_eq!(with(0, 0x020a_8000), Err(BadPacket::Reserved));
+    for header in [0x0101_0100, 0x0101_0200, 0x0101_0400, 0x1000_0100, 0x1101_0400] {
+        assert_eq!(round_trip(&[header, 0]), Err(BadPacket::Reserved), "{header:#x} has a mode");
+    }
     assert_eq!(with(1, Span::new(4, 3).0), Err(BadPacket::Box));
     assert_eq!(with(1, Span::new(0, 320).0), Err(BadPacket::Box));
     assert_eq!(with(2, Span::new(0, 240).0), Err(BadPacket::Box));

@@ -32,10 +32,10 @@ impl Reference {
         let mut at = 0;
         while at < stream.len() {
             let header = stream[at];
-            let (kind, length, reserved, colour) =
+            let (kind, length, modes, colour) =
                 (header >> 24, (header >> 16 & 0xff) as usize, header >> 8 & 0xff, header as u8);
             let end = at + 1 + length;
-            let good_header = reserved == 0
+            let good_header = modes & if kind == 2 || kind == 3 { 0xf8 } else { 0xff } == 0
                 && match kind {
                     0x01 => length == 1,
                     0x02 => length == 10,
@@ -47,23 +47,25 @@ impl Reference {
             if !good_header {
                 self.counters.bad_packets += 1;
             } else if end <= stream.len() {
-                self.execute(kind, colour, &stream[at + 1..end]);
+                self.execute(kind, colour, modes, &stream[at + 1..end]);
             }
             at = end;
         }
         at - stream.len()
     }
 
-    fn execute(&mut self, kind: u32, colour: u8, payload: &[u32]) {
+    fn execute(&mut self, kind: u32, colour: u8, modes: u32, payload: &[u32]) {
         match kind {
             0x01 if payload[0] > 0xffff => self.counters.bad_packets += 1,
             0x01 => {
                 self.colours[1 - self.front].fill(colour);
                 self.depths.fill(payload[0] as u16);
             }
-            0x02 => self.triangle(payload, |_, _, _, _| colour),
+            0x02 => self.triangle(payload, modes, |_, _, _, _| colour),
             0x03 if [1, 3, 5].iter().any(|word| payload[*word] >> 31 != 0) => self.counters.bad_packets += 1,
-            0x03 => self.triangle(&payload[6..], |x, y, right, down| gouraud_colour(payload, [x, y], right, down)),
+            0x03 => {
+                self.triangle(&payload[6..], modes, |x, y, right, down| gouraud_colour(payload, [x, y], right, down))
+            }
             0x10 => {
                 self.front = 1 - self.front;
                 self.counters.frames_shown += 1;
@@ -73,7 +75,7 @@ impl Reference {
     }
 
     /// `colour` is asked for the colour at a pixel, and how far it lies right of and below the box's first.
-    fn triangle(&mut self, payload: &[u32], colour: impl Fn(u32, u32, u32, u32) -> u8) {
+    fn triangle(&mut self, payload: &[u32], modes: u32, colour: impl Fn(u32, u32, u32, u32) -> u8) {
         let (x0, x1) = (payload[0] & 0xffff, payload[0] >> 16);
         let (y0, y1) = (payload[1] & 0xffff, payload[1] >> 16);
         if x0 > x1 || x1 >= WIDTH || y0 > y1 || y1 >= HEIGHT {
@@ -98,10 +100,18 @@ impl Reference {
                 self.counters.pixels_tested = self.counters.pixels_tested.wrapping_add(1);
                 let depth = (sum(payload[7], payload[8], payload[9]) >> 12).clamp(0, 65_535) as u16;
                 let pixel = (y * WIDTH + x) as usize;
-                if depth < self.depths[pixel] {
-                    self.counters.pixels_written = self.counters.pixels_written.wrapping_add(1);
+                let (keep_depth, keep_colour, depth_grey) = (modes & 1 != 0, modes & 2 != 0, modes & 4 != 0);
+                if !keep_depth && depth >= self.depths[pixel] {
+                    continue;
+                }
+                self.counters.pixels_written = self.counters.pixels_written.wrapping_add(1);
+                if !keep_depth {
                     self.depths[pixel] = depth;
-                    self.colours[1 - self.front][pixel] = colour(x, y, right, down);
+                }
+                if !keep_colour {
+                    let grey = 255 - u32::from(depth) / 256;
+                    self.colours[1 - self.front][pixel] =
+                        if depth_grey { dithered([grey; 3], [x, y]) } else { colour(x, y, right, down) };
                 }
             }
         }
@@ -128,9 +138,6 @@ fn gouraud_colour(words: &[u32], [x, y]: [u32; 2], right: u32, down: u32) -> u8 
         let both = u64::from(words[2 * pair + 1]) << 32 | u64::from(words[2 * pair]);
         both >> (21 * index) & 0x1f_ffff
     };
-    // Ordered dithering's matrix, by its definition: the bits of y and of x ^ y, interleaved, lowest bit first.
-    let bit = |value: u32, bit: u32| value >> bit & 1;
-    let threshold = bit(x ^ y, 0) << 3 | bit(y, 0) << 2 | bit(x ^ y, 1) << 1 | bit(y, 1);
     let eight_bits = |index: u32| {
         let sum = channel(index, 0) + channel(index, 1) * u64::from(right) + channel(index, 2) * u64::from(down);
         match (sum >> 12 & 0x1ff) as u32 {
@@ -139,7 +146,13 @@ fn gouraud_colour(words: &[u32], [x, y]: [u32; 2], right: u32, down: u32) -> u8 
             _ => 0,
         }
     };
-    let [red, green, blue] = [0, 1, 2].map(eight_bits);
+    dithered([0, 1, 2].map(eight_bits), [x, y])
+}
+
+fn dithered([red, green, blue]: [u32; 3], [x, y]: [u32; 2]) -> u8 {
+    // Ordered dithering's matrix, by its definition: the bits of y and of x ^ y, interleaved, lowest bit first.
+    let bit = |value: u32, bit: u32| value >> bit & 1;
+    let threshold = bit(x ^ y, 0) << 3 | bit(y, 0) << 2 | bit(x ^ y, 1) << 1 | bit(y, 1);
     let of_8 = |value: u32| (value - value / 8 + 2 * threshold + 1) / 32;
     let of_4 = |value: u32| (value - value / 4 + 4 * threshold + 2) / 64;
     (of_8(red) << 5 | of_8(green) << 2 | of_4(blue)) as u8

@@ -1,6 +1,6 @@
 //! Triangle setup for tests: in 64 bits and floating point, so that it needs no cleverness.
 
-use fpga_regs::packet::{EdgeSteps, FlatTriangle, Span, TriangleShape};
+use fpga_regs::packet::{EdgeSteps, FlatTriangle, PixelMode, Span, TriangleShape};
 use fpga_regs::screen::{HEIGHT, PacketDepth, Rgb332, SUBPIXEL, WIDTH};
 
 /// A vertex: x and y in sixteenths of a pixel within the guard band, depth 0…65,535.
@@ -41,6 +41,7 @@ pub fn set_up(mut vertices: [Vertex; 3], colour: u8) -> Option<FlatTriangle> {
     let modular = |value: f64| PacketDepth::from_bits((value * 4096.0).round() as i64 as i32);
     Some(FlatTriangle {
         colour: Rgb332(colour),
+        mode: PixelMode::USUAL,
         shape: TriangleShape {
             columns,
             rows,

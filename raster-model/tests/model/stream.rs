@@ -1,6 +1,8 @@
 //! Words in any pieces: good packets, bad ones, garbage, streams that end too early.
 
-use fpga_regs::packet::{BadPacket, Channels, Clear, Fence, FlatTriangle, GouraudTriangle, Header, Kind, Packet, swap};
+use fpga_regs::packet::{
+    BadPacket, Channels, Clear, Fence, FlatTriangle, GouraudTriangle, Header, Kind, Packet, PixelMode, swap,
+};
 use fpga_regs::registers::{Control, Errors, Interrupts, Register, Status};
 use fpga_regs::screen::Rgb332;
 use raster_model::{Device, MidPacket};
@@ -44,6 +46,7 @@ fn every_kind_of_packet_does_what_it_says() {
                     // Below zero in column 2.
                     colour_step_x: level(-130),
                     colour_step_y: level(0),
+                    mode: PixelMode::USUAL,
                     shape: triangle(0).shape,
                 };
                 device.push(&packet.encode());

@@ -1,6 +1,8 @@
 //! Which pixels a triangle changes.
 
-use fpga_regs::packet::{Channels, Clear, EdgeSteps, FlatTriangle, GouraudTriangle, Packet, Span, TriangleShape, swap};
+use fpga_regs::packet::{
+    Channels, Clear, EdgeSteps, FlatTriangle, GouraudTriangle, Packet, PixelMode, Span, TriangleShape, swap,
+};
 use fpga_regs::screen::{DEPTH_FAR, GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
 use raster_model::Device;
 
@@ -15,6 +17,7 @@ const CLEAR: Clear = Clear { colour: Rgb332(0), depth: DEPTH_FAR };
 fn strip(columns: u16, depth: i32, depth_step_x: i32) -> FlatTriangle {
     FlatTriangle {
         colour: Rgb332(7),
+        mode: PixelMode::USUAL,
         shape: TriangleShape {
             columns: Span::new(0, columns - 1),
             rows: Span::new(0, 0),
@@ -43,6 +46,7 @@ fn pattern(device: &Device<'_>) -> Vec<String> {
 fn a_small_triangle_covers_the_pixels_that_the_definition_enumerates() {
     let triangle = FlatTriangle {
         colour: Rgb332(0xe3),
+        mode: PixelMode::USUAL,
         shape: TriangleShape {
             columns: Span::new(10, 14),
             rows: Span::new(20, 23),
@@ -136,11 +140,18 @@ fn any_span(rng: &mut Rng, size: u32) -> Span {
     Span::new(first as u16, last as u16)
 }
 
+/// Mostly the usual mode.
+fn any_mode(rng: &mut Rng) -> PixelMode {
+    let mut bit = || rng.below(8) == 0;
+    PixelMode { keep_depth: bit(), keep_colour: bit(), depth_grey: bit() }
+}
+
 /// Any words at all, but for a box on the screen and a header that is right.
 fn garbage(rng: &mut Rng) -> FlatTriangle {
     let depth = [0; 3].map(|_| PacketDepth::from_bits(rng.word() as i32));
     FlatTriangle {
         colour: Rgb332(rng.word() as u8),
+        mode: any_mode(rng),
         shape: TriangleShape {
             columns: any_span(rng, WIDTH),
             rows: any_span(rng, HEIGHT),
@@ -196,6 +207,7 @@ fn gouraud(rng: &mut Rng) -> GouraudTriangle {
         colour: within_21_bits(channels(300 << 12)),
         colour_step_x: within_21_bits(channels(0x1000)),
         colour_step_y: within_21_bits(channels(0x1000)),
+        mode: any_mode(rng),
         shape,
     }
 }

@@ -1,6 +1,8 @@
 //! Triangle packets from vertices, and words that no setup makes.
 
-use fpga_regs::packet::{Channels, EdgeSteps, FlatTriangle, GouraudTriangle, Header, Kind, Span, TriangleShape};
+use fpga_regs::packet::{
+    Channels, EdgeSteps, FlatTriangle, GouraudTriangle, Header, Kind, PixelMode, Span, TriangleShape,
+};
 use fpga_regs::screen::{GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
 
 use super::random::Random;
@@ -62,6 +64,7 @@ pub fn triangle(mut vertices: [Vertex; 3], colour: u8, loose: bool) -> Option<Fl
     let q = |value: i64| PacketDepth::from_bits(value as i32);
     Some(FlatTriangle {
         colour: Rgb332(colour),
+        mode: PixelMode::USUAL,
         shape: TriangleShape {
             columns: Span::new(left as u16, right as u16),
             rows: Span::new(top as u16, bottom as u16),
@@ -118,9 +121,14 @@ pub fn any_triangle(random: &mut Random) -> FlatTriangle {
         });
         let loose = random.one_in(200);
         if let Some(triangle) = triangle(vertices, random.word() as u8, loose) {
-            return triangle;
+            return FlatTriangle { mode: any_mode(random), ..triangle };
         }
     }
+}
+
+/// Returns mostly the usual mode.
+fn any_mode(random: &mut Random) -> PixelMode {
+    PixelMode { keep_depth: random.one_in(12), keep_colour: random.one_in(12), depth_grey: random.one_in(12) }
 }
 
 /// Returns a triangle as [`any_triangle`]'s whose colour changes: by little from pixel to pixel, so
@@ -133,6 +141,7 @@ pub fn any_gouraud_triangle(random: &mut Random) -> GouraudTriangle {
         colour: channels(1 << 20),
         colour_step_x: channels(1 << slope_bits >> 1),
         colour_step_y: channels(1 << slope_bits >> 1),
+        mode: any_mode(random),
         shape,
     }
 }
@@ -163,7 +172,7 @@ pub fn garbage_triangle(random: &mut Random) -> [u32; FlatTriangle::WORDS] {
             *step = (*step as i32 >> 14) as u32;
         }
     }
-    words[0] = Header::of(Kind::FlatTriangle).0 | words[0] & 0xff;
+    words[0] = Header::of(Kind::FlatTriangle).0 | words[0] & 0x7ff;
     words[1] = columns.0;
     words[2] = rows.0;
     words

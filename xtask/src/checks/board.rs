@@ -33,7 +33,7 @@ pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
                   `cargo xtask generate --golden` and say why in the commit";
     let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
     golden.check(&Golden::from(&here.report)).with_context(|| format!("on this computer; {remedy}"))?;
-    let mut machine = state.bootable()?.start(&state.folder("demo"))?;
+    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("demo"))?;
     let there = demo::play(&mut machine, &parts, &state.progress)?;
     machine.quit()?;
     golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")?;
@@ -45,9 +45,18 @@ pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// The same on the Cortex-A7, with another display, timer and interrupt controller.
+pub(super) fn demonstration_on_raspi2b(state: &mut State) -> anyhow::Result<()> {
+    let golden = Golden::read()?.with_context(|| format!("{} is missing", golden::PATH))?;
+    let mut machine = state.bootable(Board::Raspi2b)?.start(&state.folder("demo-raspi2b"))?;
+    let played = demo::play(&mut machine, &session::demo()?, &state.progress)?;
+    machine.quit()?;
+    golden.check(&Golden::from(&played.report)).context("on QEMU's raspi2b, but not on vexpress-a9")
+}
+
 /// Every byte of a report is lost once; the firmware drops what it spoils and goes on.
 pub(super) fn lossy_line(state: &mut State) -> anyhow::Result<()> {
-    let mut machine = state.bootable()?.start(&state.folder("lossy-line"))?;
+    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("lossy-line"))?;
     let mut buffer = [0; FRAME_SIZE_MAXIMUM];
     let report = DualShock3Report::default().to_bytes();
     let frame = serial::encode(kind::DUALSHOCK3, &report, &mut buffer).map_err(|error| anyhow::anyhow!("{error}"))?;
@@ -79,7 +88,7 @@ pub(super) fn faults(state: &mut State) -> anyhow::Result<()> {
     let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;
     let copy = folder.path().join("fault-injection.elf");
     fs::copy(&elf, &copy).with_context(|| format!("cannot copy {}", elf.display()))?;
-    let bootable = Bootable { elf: copy, ..state.bootable()? };
+    let bootable = Bootable { elf: copy, ..state.bootable(Board::VexpressA9)? };
     for (fault, report) in [
         (Fault::DataAbort, "data abort: write to 0x50000000"),
         (Fault::PrefetchAbort, "prefetch abort: fetch from 0x50000000"),

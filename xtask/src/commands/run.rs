@@ -7,12 +7,12 @@ use std::time::Duration;
 use anyhow::{Context, ensure};
 
 use crate::boot::{Bootable, check_runs, start_with_log};
-use crate::cli::RunArguments;
+use crate::cli::{Board, RunArguments};
 use crate::machine::Link;
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
-use crate::qemu::QemuOptions;
+use crate::qemu::{QemuOptions, UsbDevice};
 use crate::session::{self, ScenePart};
 use crate::setup::ensure_qemu_window;
 
@@ -73,14 +73,37 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
     taken
 }
 
+/// Returns what is plugged into the board: a keyboard, and behind a hub with it what the flags name.
+fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
+    let named = arguments.pad.is_some() || arguments.usb_host.is_some();
+    if arguments.board != Board::Raspi2b {
+        let board = arguments.board;
+        ensure!(!named, "{board} has no USB: use `--board {}` with --pad and --usb-host", Board::Raspi2b);
+        return Ok(Vec::new());
+    }
+    if !named {
+        return Ok(vec![UsbDevice::keyboard("1")]);
+    }
+    let mut devices = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1")];
+    if let Some(socket) = &arguments.pad {
+        if !socket.exists() {
+            println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display());
+        }
+        devices.push(UsbDevice::served(socket, "1.2"));
+    }
+    devices.extend(arguments.usb_host.map(|ids| UsbDevice::of_this_computer(ids, "1.3")));
+    Ok(devices)
+}
+
 fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let progress = Progress::new();
     let (qemu, display) = ensure_qemu_window(&progress)?;
     let bootable = Bootable::prepare(arguments.board, &progress)?;
     let folder = target_folder().join("run");
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let mut options = QemuOptions::new(qemu, &bootable.elf);
+    let mut options = QemuOptions::new(qemu, bootable.board, &bootable.elf);
     options.display = display;
+    options.usb = plugged_in(arguments)?;
     options.console_file = Some(folder.join("console.txt"));
     options.console_on_stdout = true;
     let (mut qemu, log) = start_with_log(&options, &folder)?;
@@ -96,7 +119,27 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::{Cli, Task};
+    use clap::Parser;
     use firmware::scene::Scene;
+
+    /// Returns what is plugged in, and the message when that is refused.
+    fn plugged(line: &str) -> Result<usize, String> {
+        let words = ["xtask", "run"].into_iter().chain(line.split_whitespace());
+        let Task::Run(arguments) = Cli::try_parse_from(words).expect("a valid line").command else {
+            panic!("run is run");
+        };
+        plugged_in(&arguments).map(|devices| devices.len()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_board_without_usb_takes_no_device() {
+        assert_eq!(plugged(""), Ok(0));
+        assert_eq!(plugged("--board raspi2b"), Ok(1));
+        assert_eq!(plugged("--board raspi2b --pad /no/socket --usb-host 054c:0268"), Ok(4));
+        let message = plugged("--usb-host 054c:0268").expect_err("vexpress-a9 has none");
+        assert!(message.starts_with("vexpress-a9 has no USB: use `--board raspi2b`"), "{message}");
+    }
 
     #[test]
     fn a_session_is_repeated_and_cut() {

@@ -8,6 +8,6 @@ use crate::cli::TestArguments;
 /// # Errors
 ///
 /// The first check that fails, and what to do about it.
-pub fn run(_arguments: &TestArguments) -> anyhow::Result<()> {
-    checks::run()
+pub fn run(arguments: &TestArguments) -> anyhow::Result<()> {
+    checks::run(arguments.only.as_deref())
 }

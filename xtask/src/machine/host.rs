@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 use std::marker::PhantomData;
 
-use controls::Controls;
 use firmware::app::{Application, Memory};
 use firmware::board::Board;
+use firmware::intake::Intake;
 use fpga_regs::{Renderer, Timeouts};
 
 use super::Machine;
@@ -36,7 +36,7 @@ impl<'a, 'memory> Board for HostBoard<'a, 'memory> {
         &mut self.console
     }
 
-    fn poll_controllers(&mut self, _: &mut Controls) -> u32 {
+    fn poll_controllers(&mut self, _: &mut Intake) -> u32 {
         0
     }
 

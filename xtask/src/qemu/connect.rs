@@ -1,5 +1,6 @@
 //! Starts QEMU and connects it: this process listens, QEMU calls.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::os::unix::net::{UnixListener, UnixStream};
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, ensure};
 
 use super::Qemu;
-use super::options::{QemuOptions, SOCKETS};
+use super::options::{CONTROL, QemuOptions, Wiring};
 use super::process::{POLL, Process};
 use crate::console::Console;
 use crate::paths::TemporaryFolder;
@@ -23,7 +24,7 @@ pub(super) fn start(options: &QemuOptions) -> anyhow::Result<Qemu> {
     ensure!(options.elf.is_file(), "there is no firmware in {}: build it first", options.elf.display());
     let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;
     let mut listeners = Vec::new();
-    for name in SOCKETS {
+    for name in Wiring::of(options.board).sockets() {
         let path = folder.path().join(name);
         let listener = UnixListener::bind(&path).with_context(|| format!("cannot listen on {}", path.display()))?;
         listener.set_nonblocking(true)?;
@@ -34,7 +35,7 @@ pub(super) fn start(options: &QemuOptions) -> anyhow::Result<Qemu> {
     command.args(options.arguments(folder.path())).env("QEMU_AUDIO_DRV", "none");
     let mut process = Process::start(&mut command)?;
     match connect(options, &listeners, &mut process) {
-        Ok(Connections { qmp, console, link, log }) => Ok(Qemu { process, qmp, console, link, log: Some(log), folder }),
+        Ok(Connections { qmp, console, link, log }) => Ok(Qemu { process, qmp, console, link, log, folder }),
         Err(error) => Err(process.explain(error)),
     }
 }
@@ -43,7 +44,7 @@ struct Connections {
     qmp: Qmp,
     console: Console,
     link: UnixStream,
-    log: UnixStream,
+    log: Option<UnixStream>,
 }
 
 fn connect(
@@ -52,13 +53,13 @@ fn connect(
     process: &mut Process,
 ) -> anyhow::Result<Connections> {
     let deadline = Instant::now() + CONNECT_LIMIT;
-    let mut streams = Vec::new();
+    let mut streams = HashMap::new();
     for (name, listener) in listeners {
-        streams.push(accept(name, listener, process, deadline)?);
+        streams.insert(*name, accept(name, listener, process, deadline)?);
     }
-    let Ok([control, console, link, log]) = <[UnixStream; 4]>::try_from(streams) else {
-        unreachable!("there are as many streams as sockets");
-    };
+    let mut stream = |name| streams.remove(name).with_context(|| format!("the board has no {name}"));
+    let (control, console, link) = (stream(CONTROL)?, stream("console")?, stream("link")?);
+    let log = stream("log").ok();
     let mut copies: Vec<Box<dyn Write + Send>> = Vec::new();
     if let Some(path) = &options.console_file {
         let file = File::create(path).with_context(|| format!("cannot write the console to {}", path.display()))?;

@@ -3,6 +3,9 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use super::usb_device::UsbDevice;
+use crate::cli::Board;
+
 /// Where the machine's screen is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Display {
@@ -35,13 +38,18 @@ pub struct QemuOptions {
     pub program: PathBuf,
     /// The firmware.
     pub elf: PathBuf,
-    /// RAM in MiB, at most 1,024.
-    pub memory_mebibytes: u32,
+    /// The board that it is for.
+    pub board: Board,
+    /// What is plugged in from the start.
+    pub usb: Vec<UsbDevice>,
     /// Where the screen is shown.
     pub display: Display,
     /// Makes an instruction take 2^shift ns of the machine's time, and so every run the same;
     /// without it the machine's time is the wall clock's.
     pub icount_shift: Option<u8>,
+    /// With `icount_shift`: what the machine sleeps passes at once, so that its time has nothing to do
+    /// with the wall clock.
+    pub skips_sleep: bool,
     /// Lets the firmware end QEMU with a status, and print, by semihosting.
     pub semihosting: bool,
     /// File that gets the console's lines as well.
@@ -52,50 +60,52 @@ pub struct QemuOptions {
 
 impl QemuOptions {
     /// Returns the options of a headless run on the wall clock, with semihosting.
-    pub fn new(program: impl Into<PathBuf>, elf: impl Into<PathBuf>) -> Self {
+    pub fn new(program: impl Into<PathBuf>, board: Board, elf: impl Into<PathBuf>) -> Self {
         Self {
             program: program.into(),
             elf: elf.into(),
-            memory_mebibytes: 256,
+            board,
+            usb: Vec::new(),
             display: Display::None,
             icount_shift: None,
+            skips_sleep: false,
             semihosting: true,
             console_file: None,
             console_on_stdout: false,
         }
     }
 
-    /// Returns QEMU's arguments, with its sockets in `folder` under the names of [`SOCKETS`].
+    /// Returns QEMU's arguments, with its sockets in `folder` under the names of [`Wiring::sockets`].
     pub(super) fn arguments(&self, folder: &Path) -> Vec<OsString> {
         let mut words: Vec<OsString> = Vec::new();
         let mut push = |text: &str| words.push(text.into());
         // -S: paused until everything is connected. -no-reboot: a reset of the firmware ends QEMU.
-        for text in ["-nodefaults", "-no-user-config", "-no-reboot", "-S", "-machine", "vexpress-a9"] {
+        for text in ["-nodefaults", "-no-user-config", "-no-reboot", "-S", "-machine", self.board.name()] {
             push(text);
         }
-        push("-m");
-        push(&format!("{}M", self.memory_mebibytes));
+        let wiring = Wiring::of(self.board);
+        if let Some(mebibytes) = wiring.memory_mebibytes {
+            push("-m");
+            push(&format!("{mebibytes}M"));
+        }
         push("-display");
         push(self.display.name());
-        for name in SOCKETS {
+        for name in wiring.sockets() {
             push("-chardev");
             push(&format!("socket,id={name},server=off,path={}", comma_doubled(&folder.join(name))));
         }
-        for text in [
-            "-mon",
-            "chardev=control,mode=control",
-            "-serial",
-            "chardev:console",
-            "-serial",
-            "chardev:link",
-            "-serial",
-            "chardev:log",
-        ] {
-            push(text);
+        push("-mon");
+        push("chardev=control,mode=control");
+        for name in wiring.serial_ports {
+            push("-serial");
+            push(&format!("chardev:{name}"));
+        }
+        for device in &self.usb {
+            device.arguments().iter().for_each(|word| push(word));
         }
         if let Some(shift) = self.icount_shift {
             push("-icount");
-            push(&format!("shift={shift}"));
+            push(&format!("shift={shift}{}", if self.skips_sleep { ",sleep=off" } else { "" }));
         }
         if self.semihosting {
             push("-semihosting-config");
@@ -107,21 +117,48 @@ impl QemuOptions {
     }
 }
 
-/// The sockets between QEMU and this process: its remote control, then UART 0 to 2.
-pub(super) const SOCKETS: [&str; 4] = ["control", "console", "link", "log"];
+/// The name of the socket of QEMU's remote control.
+pub(super) const CONTROL: &str = "control";
+
+/// What of a machine is not the same on every board.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Wiring {
+    /// RAM in MiB where it can be chosen.
+    memory_mebibytes: Option<u32>,
+    /// What each serial port carries, the machine's first one first: `console`, `link`, `log`.
+    pub(super) serial_ports: &'static [&'static str],
+}
+
+impl Wiring {
+    pub(super) const fn of(board: Board) -> Self {
+        match board {
+            Board::VexpressA9 | Board::De1Soc => {
+                Self { memory_mebibytes: Some(256), serial_ports: &["console", "link", "log"] }
+            }
+            // The machine has 1 GiB, and no third port.
+            Board::Raspi2b => Self { memory_mebibytes: None, serial_ports: &["link", "console"] },
+        }
+    }
+
+    /// The sockets between QEMU and this process, in the order in which QEMU calls on them.
+    pub(super) fn sockets(self) -> impl Iterator<Item = &'static str> {
+        std::iter::once(CONTROL).chain(self.serial_ports.iter().copied())
+    }
+}
 
 /// Returns a path as QEMU's options want it: a comma parts them, two are one.
-fn comma_doubled(path: &Path) -> String {
+pub(super) fn comma_doubled(path: &Path) -> String {
     path.to_string_lossy().replace(',', ",,")
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::UsbIds;
     use super::*;
 
     #[test]
     fn arguments_follow_the_options() {
-        let mut options = QemuOptions::new("qemu", "a b.elf");
+        let mut options = QemuOptions::new("qemu", Board::VexpressA9, "a b.elf");
         options.icount_shift = Some(5);
         options.display = Display::Gtk;
         let words = options.arguments(Path::new("/t,1"));
@@ -133,5 +170,32 @@ mod tests {
         options.icount_shift = None;
         let line = format!("{:?}", options.arguments(Path::new("/t")));
         assert!(!line.contains("semihosting") && !line.contains("icount"), "{line}");
+    }
+
+    #[test]
+    fn each_board_has_its_ports() {
+        let line = |board| {
+            let mut options = QemuOptions::new("qemu", board, "x.elf");
+            options.usb = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1"), UsbDevice::served("/t/pad", "1.2")];
+            let ids = UsbIds { vendor: 0x054C, product: 0x0268 };
+            options.usb.push(UsbDevice::of_this_computer(ids, "1.3"));
+            let words = options.arguments(Path::new("/t"));
+            words.iter().map(|word| word.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ")
+        };
+        let vexpress = line(Board::VexpressA9);
+        assert!(vexpress.contains("-machine vexpress-a9 -m 256M "), "{vexpress}");
+        assert!(vexpress.contains("-serial chardev:console -serial chardev:link -serial chardev:log "), "{vexpress}");
+        let raspi = line(Board::Raspi2b);
+        assert!(raspi.contains("-machine raspi2b -display "), "{raspi}");
+        assert!(
+            raspi.contains("-serial chardev:link -serial chardev:console -device usb-hub,id=usb1,port=1 "),
+            "{raspi}"
+        );
+        assert!(!raspi.contains("id=log"), "{raspi}");
+        assert!(raspi.contains("-device usb-kbd,id=usb1.1,port=1.1 "), "{raspi}");
+        let served = "-chardev socket,id=server-usb1.2,path=/t/pad,reconnect=1 \
+                      -device usb-redir,id=usb1.2,port=1.2,chardev=server-usb1.2 ";
+        assert!(raspi.contains(served), "{raspi}");
+        assert!(raspi.contains("-device usb-host,id=usb1.3,port=1.3,vendorid=0x054c,productid=0x0268 "), "{raspi}");
     }
 }

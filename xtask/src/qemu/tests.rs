@@ -1,4 +1,5 @@
 use super::*;
+use crate::cli::Board;
 use crate::log_decoder::LogDecoder;
 use crate::paths;
 use crate::test_elf::{TestElf, TestFile};
@@ -9,11 +10,18 @@ const MINUTE: Duration = Duration::from_secs(60);
 #[test]
 fn a_qemu_that_does_not_start_is_explained() {
     let elf = TestFile::new("any.elf", b"");
-    let error = Qemu::start(&QemuOptions::new("/bin/sh", elf.path())).err().expect("sh is no QEMU").to_string();
+    let error = Qemu::start(&QemuOptions::new("/bin/sh", Board::VexpressA9, elf.path()))
+        .err()
+        .expect("sh is no QEMU")
+        .to_string();
     assert!(error.contains("QEMU ended before its control was connected") && error.contains("QEMU said:"), "{error}");
-    let error = Qemu::start(&QemuOptions::new("no-such-qemu", elf.path())).err().expect("missing").to_string();
+    let error = Qemu::start(&QemuOptions::new("no-such-qemu", Board::VexpressA9, elf.path()))
+        .err()
+        .expect("missing")
+        .to_string();
     assert!(error.contains("cannot start no-such-qemu"), "{error}");
-    let error = Qemu::start(&QemuOptions::new("/bin/sh", "no.elf")).err().expect("no firmware").to_string();
+    let error =
+        Qemu::start(&QemuOptions::new("/bin/sh", Board::VexpressA9, "no.elf")).err().expect("no firmware").to_string();
     assert!(error.contains("there is no firmware in no.elf"), "{error}");
 }
 
@@ -51,7 +59,7 @@ fn echo(options: impl FnOnce(&mut QemuOptions)) -> (Qemu, TestFile) {
     elf.defmt_symbol("_defmt_version_ = 4", 0);
     elf.defmt_symbol("_defmt_encoding_ = rzcobs", 0);
     let file = TestFile::new("echo.elf", &elf.bytes());
-    let mut qemu_options = QemuOptions::new("qemu-system-arm", file.path());
+    let mut qemu_options = QemuOptions::new("qemu-system-arm", Board::VexpressA9, file.path());
     options(&mut qemu_options);
     (Qemu::start(&qemu_options).expect("QEMU starts"), file)
 }

@@ -1,6 +1,6 @@
 //! Packets as lines of JSON.
 
-use fpga_regs::packet::{Channels, Packet, Span, TriangleShape};
+use fpga_regs::packet::{Channels, Packet, PixelMode, Span, TriangleShape};
 use fpga_regs::screen::{COLOUR_FRACTION_BITS, PacketDepth};
 use serde::Serialize;
 
@@ -27,12 +27,16 @@ enum Body {
     FlatTriangle {
         colour: u8,
         #[serde(flatten)]
+        mode: Mode,
+        #[serde(flatten)]
         shape: Shape,
     },
     GouraudTriangle {
         colour: [f64; 3],
         colour_step_x: [f64; 3],
         colour_step_y: [f64; 3],
+        #[serde(flatten)]
+        mode: Mode,
         #[serde(flatten)]
         shape: Shape,
     },
@@ -44,6 +48,27 @@ enum Body {
         reason: String,
         header: u32,
     },
+}
+
+/// What is unusual about a triangle's pixels; what is usual is not written.
+#[derive(Debug, Serialize)]
+struct Mode {
+    #[serde(skip_serializing_if = "is_false")]
+    keep_depth: bool,
+    #[serde(skip_serializing_if = "is_false")]
+    keep_colour: bool,
+    #[serde(skip_serializing_if = "is_false")]
+    depth_grey: bool,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+impl From<PixelMode> for Mode {
+    fn from(PixelMode { keep_depth, keep_colour, depth_grey }: PixelMode) -> Self {
+        Self { keep_depth, keep_colour, depth_grey }
+    }
 }
 
 /// What all triangles have.
@@ -62,13 +87,16 @@ impl From<&Entry> for Line {
     fn from(entry: &Entry) -> Self {
         let body = match entry.packet {
             Ok(Packet::Clear(clear)) => Body::Clear { colour: clear.colour.0, depth: clear.depth },
-            Ok(Packet::FlatTriangle(triangle)) => {
-                Body::FlatTriangle { colour: triangle.colour.0, shape: (&triangle.shape).into() }
-            }
+            Ok(Packet::FlatTriangle(triangle)) => Body::FlatTriangle {
+                colour: triangle.colour.0,
+                mode: triangle.mode.into(),
+                shape: (&triangle.shape).into(),
+            },
             Ok(Packet::GouraudTriangle(triangle)) => Body::GouraudTriangle {
                 colour: channels(triangle.colour),
                 colour_step_x: channels(triangle.colour_step_x),
                 colour_step_y: channels(triangle.colour_step_y),
+                mode: triangle.mode.into(),
                 shape: (&triangle.shape).into(),
             },
             Ok(Packet::Swap) => Body::Swap,
@@ -120,11 +148,12 @@ mod tests {
             depth_step_x: PacketDepth::from_num(0.25),
             depth_step_y: PacketDepth::from_num(3),
         };
-        let triangle = FlatTriangle { colour: Rgb332(0xe3), shape };
+        let triangle = FlatTriangle { colour: Rgb332(0xe3), mode: PixelMode::USUAL, shape };
         let gouraud = GouraudTriangle {
             colour: Channels([255 << 12, 0, 0x800]),
             colour_step_x: Channels([-0x1800, 1 << 12, 0]),
             colour_step_y: Channels([0, 0, -1 << 12]),
+            mode: PixelMode { keep_depth: true, ..PixelMode::USUAL },
             shape,
         };
         let clear = Clear { colour: Rgb332(1), depth: 65_535 };
@@ -150,7 +179,8 @@ mod tests {
                 ),
                 concat!(
                     r#"{"word":13,"length":17,"kind":"gouraud_triangle","colour":[255.0,0.0,0.5],"#,
-                    r#""colour_step_x":[-1.5,1.0,0.0],"colour_step_y":[0.0,0.0,-1.0],"columns":[3,319],"rows":[0,239],"#,
+                    r#""colour_step_x":[-1.5,1.0,0.0],"colour_step_y":[0.0,0.0,-1.0],"keep_depth":true,"columns":[3,319],"#,
+                    r#""rows":[0,239],"#,
                     r#""edges":[-1,0,9],"steps":[[-5,6],[7,-8]],"depth":-1.5,"depth_step_x":0.25,"depth_step_y":3.0}"#
                 ),
                 r#"{"word":30,"length":1,"kind":"swap"}"#,

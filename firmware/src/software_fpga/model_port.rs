@@ -1,16 +1,14 @@
-//! The FPGA of a board that has none: the software model, shown on the board's display.
+//! The software model as a [`Port`].
 
 use fpga_regs::Port;
 use fpga_regs::registers::Register;
 use fpga_regs::screen::{PIXELS, Rgb332, WIDTH};
 use raster_model::{Device, Memory, SizeError, picture_checksum};
 
-use super::pl111::{self, Display};
+use super::display::{DISPLAY_WIDTH, Display};
 
 /// Words of the model's FIFO: what the FPGA has, too.
 const FIFO_WORDS: usize = 1024;
-
-const _: () = assert!(pl111::WIDTH == 2 * WIDTH as usize && pl111::FRAME_PIXELS == 4 * PIXELS, "the display doubles");
 
 /// Memory for the model; large, so a static.
 pub struct ModelMemory {
@@ -34,18 +32,18 @@ impl Default for ModelMemory {
 
 /// A [`Port`] on the software model. Whenever a swap took place, what is now in front is doubled
 /// to the display, as the FPGA's VGA output does it.
-pub struct ModelPort {
+pub struct ModelPort<D> {
     device: Device<'static>,
-    display: Display,
+    display: D,
     frames_shown: u32,
 }
 
-impl ModelPort {
+impl<D: Display> ModelPort<D> {
     /// Returns the port on a model in `memory` that shows on `display`.
     ///
     /// # Errors
     /// [`SizeError`] if the memory had not the screen's size, which its type rules out.
-    pub fn new(memory: &'static mut ModelMemory, display: Display) -> Result<Self, SizeError> {
+    pub fn new(memory: &'static mut ModelMemory, display: D) -> Result<Self, SizeError> {
         let [first, second] = &mut memory.colour;
         let memory_of_device = Memory::new([first, second], &mut memory.depth)?;
         Ok(Self { device: Device::new(memory_of_device, &mut memory.fifo)?, display, frames_shown: 0 })
@@ -57,15 +55,16 @@ impl ModelPort {
     }
 
     fn show(&mut self) {
-        let rows = self.display.back().chunks_exact_mut(2 * pl111::WIDTH);
+        let rows = self.display.back().chunks_exact_mut(2 * D::STRIDE);
         for (pair, source) in rows.zip(self.device.front().chunks_exact(WIDTH as usize)) {
-            let (upper, lower) = pair.split_at_mut(pl111::WIDTH);
+            let (upper, lower) = pair.split_at_mut(D::STRIDE);
+            let (upper, lower) = (&mut upper[..DISPLAY_WIDTH], &mut lower[..DISPLAY_WIDTH]);
             for (pixels, colour) in upper.as_chunks_mut::<2>().0.iter_mut().zip(source) {
                 *pixels = [COLOURS[usize::from(*colour)]; 2];
             }
             lower.copy_from_slice(upper);
         }
-        self.display.present_without_wait();
+        self.display.present();
     }
 }
 
@@ -81,7 +80,7 @@ static COLOURS: [u32; 256] = {
     colours
 };
 
-impl Port for ModelPort {
+impl<D: Display> Port for ModelPort<D> {
     fn read(&mut self, register: Register) -> u32 {
         Port::read(&mut self.device, register)
     }

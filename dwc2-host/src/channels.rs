@@ -1,0 +1,289 @@
+//! Channels: handing a pipe's next step to the core, taking it back, and stopping what takes too long.
+
+use crate::endpoint::{Endpoint, Kind, Route};
+use crate::hardware::Buffer;
+use crate::outcome::{FRAME_NUMBERS, LAST_COMPLETE_SPLIT, Verdict, frames_since};
+use crate::port::Phase;
+use crate::registers::{Hcchar, Hcdma, Hcint, Hcintmsk, Hcsplt, Hctsiz, Hfnum};
+use crate::slot::{Activity, Fate, Slot, Split};
+use crate::state::State;
+use crate::timing::{HALT_LIMIT_US, SPLIT_DRAIN_US};
+use crate::transfer::{Program, Stage};
+use crate::tt_clear::TtClear;
+use crate::{Fault, PIPES, TransferError};
+
+/// The last microframe of a frame in which a periodic start split goes out: its complete splits end in the same frame,
+/// and microframe 6 stays free of start splits (USB 2.0 §11.18.4).
+const LAST_START_SPLIT: u16 = 3;
+/// What the core may retry by itself in one microframe of a periodic split: Linux, `hcd.c`.
+const SPLIT_RETRIES: u8 = 3;
+
+/// HCSPLT's payload position: all of it at once (it has at most 188 bytes).
+const WHOLE_PAYLOAD: u8 = 3;
+/// Every bit of HCINT.
+const ALL_REASONS: u32 = 0x3fff;
+
+/// What comes first when several steps are due.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Rank {
+    /// Complete splits whose start split is this many microframes old, oldest first: they keep the order of their
+    /// start splits (USB 2.0 §11.18.8, as Linux reads it).
+    Complete(u16),
+    /// Interrupt endpoints.
+    Periodic,
+    /// Control and bulk.
+    Rest,
+}
+
+const RANKS: [Rank; 5] = [Rank::Complete(4), Rank::Complete(3), Rank::Complete(2), Rank::Periodic, Rank::Rest];
+
+impl State<'_> {
+    /// A channel's HCINT holds something.
+    pub(crate) fn channel_interrupt(&mut self, channel: u8, now: u64) {
+        let interrupts: Hcint = self.hardware.read_channel(channel);
+        self.hardware.write_channel(channel, interrupts);
+        if interrupts.bus_error() {
+            return self.fail(Fault::DmaError { channel }, now);
+        }
+        if !interrupts.halted() {
+            return;
+        }
+        let left: Hctsiz = self.hardware.read_channel(channel);
+        let Some(index) = self.channels[usize::from(channel)].take() else { return };
+        let Some(slot) = &mut self.slots[index] else { return };
+        let (Activity::Running { program, .. } | Activity::Halting { program, .. }) = slot.activity else { return };
+        if program.input {
+            self.hardware.invalidate(index, program.buffer, program.bytes);
+        }
+        match slot.halted(program, interrupts, left, now) {
+            Verdict::Wait(from) => slot.activity = Activity::Waiting { from },
+            Verdict::Exchange => {
+                slot.effort.deadline = None;
+                slot.activity = Activity::Exchange;
+            }
+            Verdict::End(result) => self.end(index, result),
+        }
+    }
+
+    /// Starts every step that is due, as far as there are channels.
+    pub(crate) fn launch(&mut self, now: u64) {
+        if !matches!(self.phase, Phase::Ready { .. }) {
+            return;
+        }
+        self.give_up_late_splits();
+        for rank in RANKS {
+            for index in 0..PIPES {
+                let Some(frame) = self.turn_of(index, rank, now) else { continue };
+                let free = self.channels.iter().take(self.channel_count).position(Option::is_none);
+                let Some(channel) = free else { continue };
+                self.start(index, channel as u8, frame, now);
+            }
+        }
+        self.watch_frames(now);
+    }
+
+    /// Whether a pipe's next step is due and of this rank: the (micro)frame that it goes out in.
+    fn turn_of(&mut self, index: usize, rank: Rank, now: u64) -> Option<u16> {
+        let slot = self.slots[index].as_ref()?;
+        let Activity::Waiting { from } = slot.activity else { return None };
+        let endpoint = &slot.endpoint;
+        let lead = if endpoint.periodic() { endpoint.lead_us() } else { 0 };
+        if from > now + lead || self.has_rival(index, slot) {
+            return None;
+        }
+        if !endpoint.periodic() && !endpoint.paced() {
+            return (rank == Rank::Rest).then_some(0);
+        }
+        let frame = self.hardware.read::<Hfnum>().number();
+        if !endpoint.periodic() {
+            let taken = slot.last_frame == Some(frame)
+                || endpoint.route == Route::Preamble && self.preamble_frame == Some(frame);
+            return (rank == Rank::Rest && !taken).then_some(frame);
+        }
+        let next = (frame + 1) % FRAME_NUMBERS;
+        match (endpoint.route, slot.effort.split) {
+            (Route::Split { .. }, Split::Complete { start }) => {
+                (rank == Rank::Complete(frames_since(next, start))).then_some(next)
+            }
+            (Route::Split { hub, .. }, Split::Start) => {
+                let taken = |other: &Slot| other.last_start == Some(next) && other.endpoint.hub() == Some(hub);
+                let free = next % 8 <= LAST_START_SPLIT && !self.slots.iter().flatten().any(taken);
+                (rank == Rank::Periodic && free).then_some(next)
+            }
+            (Route::Preamble, _) if self.preamble_frame == Some(next) => None,
+            _ => (rank == Rank::Periodic).then_some(next),
+        }
+    }
+
+    /// Another pipe to the same control endpoint is in the middle of a transfer.
+    fn has_rival(&self, index: usize, slot: &Slot) -> bool {
+        let same = |other: &Slot| {
+            other.endpoint.kind == Kind::Control
+                && other.endpoint.address == slot.endpoint.address
+                && other.endpoint.number == slot.endpoint.number
+        };
+        let begun = |other: &Slot| other.effort.begun && other.busy();
+        slot.endpoint.kind == Kind::Control
+            && !slot.effort.begun
+            && self
+                .slots
+                .iter()
+                .enumerate()
+                .any(|(at, other)| at != index && other.as_ref().is_some_and(|other| same(other) && begun(other)))
+    }
+
+    /// Periodic splits whose last microframe has passed begin anew at the endpoint's next turn.
+    fn give_up_late_splits(&mut self) {
+        for slot in self.slots.iter_mut().flatten() {
+            if let (Activity::Waiting { from }, Split::Complete { start }) = (&mut slot.activity, slot.effort.split)
+                && slot.endpoint.periodic()
+            {
+                let next = self.hardware.read::<Hfnum>().number() + 1;
+                if frames_since(next, start) > LAST_COMPLETE_SPLIT {
+                    slot.effort.split = Split::Start;
+                    *from = slot.next_turn;
+                }
+            }
+        }
+    }
+
+    /// Hands a pipe's next step to a channel, to go out in `frame`.
+    fn start(&mut self, index: usize, channel: u8, frame: u16, now: u64) {
+        let Some(slot) = &mut self.slots[index] else { return };
+        let endpoint = slot.endpoint;
+        if !core::mem::replace(&mut slot.effort.begun, true) || slot.effort.deadline.is_none() {
+            slot.touch(now);
+        }
+        let program = slot.effort.transfer.program(&endpoint, slot.toggle);
+        let complete = matches!(slot.effort.split, Split::Complete { .. });
+        if endpoint.periodic() && !complete {
+            slot.next_turn = now + endpoint.lead_us() + u64::from(endpoint.interval_us) - endpoint.lead_us() / 4;
+            slot.last_start = Some(frame);
+        }
+        slot.last_frame = Some(frame);
+        slot.effort.halts_by = match self.config.halt_limit_us {
+            Some(limit) if endpoint.periodic() || endpoint.splits() => Some(now + u64::from(limit)),
+            _ => None,
+        };
+        if endpoint.route == Route::Preamble {
+            self.preamble_frame = Some(frame);
+        }
+        let data = program.buffer != Buffer::Setup && slot.effort.transfer.stage == Stage::Data;
+        let ping = data && !program.input && core::mem::take(&mut slot.ping);
+        slot.activity = Activity::Running { channel, program };
+        self.channels[usize::from(channel)] = Some(index);
+        self.program(index, channel, &endpoint, program, Step { complete, ping, frame });
+    }
+
+    fn program(&mut self, index: usize, channel: u8, endpoint: &Endpoint, program: Program, step: Step) {
+        // A complete split to the device carries no data: the start split did.
+        let bytes = if step.complete && !program.input { 0 } else { program.bytes };
+        if program.input {
+            self.hardware.invalidate(index, program.buffer, bytes);
+        } else if bytes > 0 {
+            self.hardware.clean(index, program.buffer, bytes);
+        }
+        let split = match endpoint.route {
+            Route::Split { hub, port } => Hcsplt::default()
+                .with_enable(true)
+                .with_hub(hub)
+                .with_port(port)
+                .with_position(WHOLE_PAYLOAD)
+                .with_complete(step.complete),
+            _ => Hcsplt::default(),
+        };
+        let size = Hctsiz::default()
+            .with_bytes(bytes as u32)
+            .with_packets(program.packets)
+            .with_identifier(program.identifier)
+            .with_ping(step.ping);
+        let address = self.hardware.bus_address(index, program.buffer);
+        let core = &mut self.hardware;
+        core.write_channel(channel, Hcint(ALL_REASONS));
+        core.write_channel(channel, Hcintmsk::default().with_halted(true).with_bus_error(true));
+        core.write_channel(channel, split);
+        core.write_channel(channel, size);
+        core.write_channel(channel, Hcdma(address));
+        core.write_channel(
+            channel,
+            Hcchar::default()
+                .with_packet_bytes(endpoint.packet_bytes)
+                .with_endpoint(endpoint.number)
+                .with_input(program.input)
+                .with_low_speed(endpoint.low_speed)
+                .with_kind(endpoint.kind as u8)
+                .with_count(if endpoint.periodic() && endpoint.splits() { SPLIT_RETRIES } else { 1 })
+                .with_address(endpoint.address)
+                .with_odd_frame(endpoint.periodic() && step.frame % 2 == 1)
+                .with_enable(true),
+        );
+    }
+
+    /// Tells a channel to halt.
+    fn halt(&mut self, index: usize, now: u64) {
+        let Some(Slot { activity, .. }) = &mut self.slots[index] else { return };
+        if let Activity::Running { channel, program } = *activity {
+            *activity = Activity::Halting { channel, program, until: now + HALT_LIMIT_US };
+            let characteristics: Hcchar = self.hardware.read_channel(channel);
+            self.hardware.write_channel(channel, characteristics.with_enable(true).with_disable(true));
+        }
+    }
+
+    /// Seals a transfer's fate: it ends as soon as its channel is free.
+    pub(crate) fn abandon(&mut self, index: usize, fate: Fate, now: u64) {
+        let Some(slot) = &mut self.slots[index] else { return };
+        if !slot.busy() {
+            slot.activity = Activity::Idle;
+            return;
+        }
+        slot.effort.fate = fate;
+        slot.effort.deadline = None;
+        slot.effort.drained_by = now + SPLIT_DRAIN_US;
+        match slot.activity {
+            Activity::Waiting { .. } if slot.owes_complete_split() => {}
+            Activity::Waiting { .. } | Activity::Exchange => self.end(index, fate.result()),
+            // A periodic channel halts at the end of its (micro)frame and cannot be told to (`espressif/esp-usb` PR 577);
+            // a split's step is short, and a translator's answer is fetched first.
+            Activity::Running { .. } if slot.endpoint.periodic() || slot.endpoint.splits() => {}
+            _ => self.halt(index, now),
+        }
+    }
+
+    /// Stops what takes too long.
+    pub(crate) fn check_deadlines(&mut self, now: u64) {
+        let passed = |limit: Option<u64>| limit.is_some_and(|limit| now >= limit);
+        for index in 0..PIPES {
+            let Some(slot) = &self.slots[index] else { continue };
+            let effort = &slot.effort;
+            match slot.activity {
+                Activity::Halting { channel, until, .. } if now >= until => {
+                    return self.fail(Fault::ChannelStuck { channel }, now);
+                }
+                Activity::Running { channel, .. } if passed(effort.halts_by) => {
+                    return self.fail(Fault::ChannelStuck { channel }, now);
+                }
+                Activity::Running { .. } if effort.fate != Fate::Wanted && now >= effort.drained_by => {
+                    self.halt(index, now);
+                }
+                Activity::Waiting { .. } if effort.fate != Fate::Wanted && now >= effort.drained_by => {
+                    self.tt_clears.push(TtClear::of(&slot.endpoint, &effort.transfer));
+                    self.end(index, effort.fate.result());
+                }
+                Activity::Running { .. } | Activity::Waiting { .. } if passed(effort.deadline) => {
+                    self.abandon(index, Fate::Failed(TransferError::Timeout), now);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// What a program does not say about a step.
+struct Step {
+    /// A complete split.
+    complete: bool,
+    /// Ask by PING first.
+    ping: bool,
+    /// The (micro)frame that it goes out in.
+    frame: u16,
+}

@@ -1,0 +1,136 @@
+//! What controllers say, taken in and tallied.
+
+use controls::{Config, ControllerState, Controls, Report, ReportError};
+use serde::{Deserialize, Serialize};
+
+/// The controls, and a tally of what they took in: it shows whether a report was lost or came twice.
+pub struct Intake {
+    controls: Controls,
+    tally: Tally,
+}
+
+/// What came in since the start, or since a PC began a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Tally {
+    /// A pad's reports.
+    pub pad: Reports,
+    /// A keyboard's reports.
+    pub keyboard: Reports,
+    /// Sources that went.
+    pub disconnected: u32,
+    /// Reports that could not be read.
+    pub unreadable: u32,
+}
+
+/// Reports that were taken in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Reports {
+    /// How many; wraps.
+    pub count: u32,
+    /// FNV-1a, 32 bits, of all their bytes in the order in which they came.
+    pub checksum: u32,
+}
+
+impl Reports {
+    /// Takes a report in.
+    pub fn add(&mut self, report: &[u8]) {
+        self.count = self.count.wrapping_add(1);
+        self.checksum =
+            report.iter().fold(self.checksum, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
+    }
+}
+
+impl Default for Reports {
+    /// Returns what no report gives: FNV-1a's offset basis.
+    fn default() -> Self {
+        Self { count: 0, checksum: 0x811C_9DC5 }
+    }
+}
+
+impl Intake {
+    /// Starts with nothing connected.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { controls: Controls::new(Config::default()), tally: Tally::default() }
+    }
+
+    /// Takes in a report of any kind.
+    ///
+    /// # Errors
+    /// [`ReportError`] for one that cannot be read; nothing but the tally has changed then.
+    pub fn accept(&mut self, report: Report<'_>) -> Result<(), ReportError> {
+        if let Err(error) = self.controls.accept(report) {
+            self.tally.unreadable = self.tally.unreadable.wrapping_add(1);
+            return Err(error);
+        }
+        match report {
+            Report::DualShock3(bytes) => self.tally.pad.add(bytes),
+            Report::Keyboard(bytes) => self.tally.keyboard.add(bytes),
+            _ => self.tally.disconnected = self.tally.disconnected.wrapping_add(1),
+        }
+        Ok(())
+    }
+
+    /// Takes in a serial frame of a report's kind.
+    ///
+    /// # Errors
+    /// As [`accept`](Self::accept), and [`ReportError`] for a frame that is none.
+    pub fn accept_frame(&mut self, kind: u8, payload: &[u8]) -> Result<(), ReportError> {
+        self.accept(Report::from_frame(kind, payload)?)
+    }
+
+    /// Returns what the application is to see now.
+    #[must_use]
+    pub fn state(&self) -> ControllerState {
+        self.controls.state()
+    }
+
+    /// Ends a frame: forgets what was pressed in it.
+    pub fn end_frame(&mut self) {
+        self.controls.end_frame();
+    }
+
+    /// Returns what came in so far.
+    #[must_use]
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+}
+
+impl Default for Intake {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use controls::{DualShock3Report, Source};
+
+    /// Test vectors of the algorithm's authors: draft-eastlake-fnv, appendix C.
+    #[test]
+    fn the_checksum_is_fnv_1a() {
+        for (text, expected) in [(&b""[..], 0x811C_9DC5), (b"a", 0xE40C_292C), (b"foobar", 0xBF9C_F968)] {
+            let mut reports = Reports::default();
+            reports.add(text);
+            assert_eq!(reports.checksum, expected);
+        }
+    }
+
+    #[test]
+    fn what_is_taken_in_is_tallied_by_its_source() {
+        let mut intake = Intake::new();
+        let pad = DualShock3Report::default().to_bytes();
+        intake.accept(Report::DualShock3(&pad)).unwrap();
+        intake.accept(Report::Keyboard(&[0; 8])).unwrap();
+        intake.accept_frame(controls::serial::kind::KEYBOARD, &[0, 0, 4, 0, 0, 0, 0, 0]).unwrap();
+        assert!(intake.accept(Report::DualShock3(&pad[1..])).is_err());
+        intake.accept(Report::Disconnected(Source::Keyboard)).unwrap();
+        let tally = intake.tally();
+        assert_eq!((tally.pad.count, tally.keyboard.count, tally.disconnected, tally.unreadable), (1, 2, 1, 1));
+        let mut alone = Reports::default();
+        alone.add(&pad);
+        assert_eq!(tally.pad, alone);
+    }
+}

@@ -1,0 +1,67 @@
+//! Keyboards and pads on a USB host controller: enumeration, hubs, HID, and what `controls` takes.
+//!
+//! Works over any controller that implements `embassy-usb-driver`'s host traits. No heap, no
+//! executor: a main loop or a timer's interrupt polls it.
+//!
+//! ```no_run
+//! # use embassy_usb_driver::host::UsbHostController;
+//! # fn example<'d>(controller: impl UsbHostController<'d>, clock: impl usb_input::Clock) {
+//! use core::pin::pin;
+//! use usb_input::{Config, Memory, UsbInput};
+//!
+//! let mut controls = controls::Controls::new(controls::Config::default());
+//! let memory = Memory::new(Config::default());
+//! let bus = pin!(usb_input::run(controller, clock, &memory));
+//! let mut usb = UsbInput::new(bus, &memory);
+//! loop {
+//!     usb.poll(); // once a millisecond, say
+//!     while let Some(event) = usb.next_event() {
+//!         if let Some(report) = event.report() {
+//!             let _ = controls.accept(report);
+//!         } // else: for the console
+//!     }
+//! }
+//! # }
+//! ```
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+mod bring_up;
+mod bus;
+mod clock;
+mod config;
+mod descriptor;
+mod device;
+mod dualshock3;
+mod dualshock4;
+mod event;
+mod fault;
+mod hid;
+mod hub;
+mod identity;
+mod link;
+mod memory;
+mod place;
+mod reader;
+mod reports;
+mod route;
+mod run;
+mod setup;
+mod slots;
+mod timing;
+mod usb_input;
+
+pub use clock::Clock;
+pub use config::Config;
+pub use event::Event;
+pub use fault::{Fault, Step};
+pub use hub::HUB_PORTS_MAXIMUM;
+pub use identity::{Identity, Kind, TEXT_BYTES};
+pub use memory::Memory;
+pub use place::Place;
+pub use run::run;
+pub use slots::DEVICES_MAXIMUM;
+pub use usb_input::UsbInput;

@@ -1,0 +1,211 @@
+//! Split transactions as the core sends them, and their rules.
+
+use std::collections::HashMap;
+
+use super::Core;
+use super::channel::{Program, Split};
+use super::registers::*;
+use crate::memory::DmaBus;
+use crate::split::{Completed, Kind, Start, Started, Token};
+use crate::violation::Rule;
+use crate::wire::Speed;
+
+/// Periodic start splits that a translator takes in a microframe (USB 2.0 §11.18.4).
+const CROWD: u64 = 16;
+
+/// A split endpoint: hub, address, number, and the direction unless it is a control endpoint.
+type Pipe = (u8, u8, u8, bool);
+
+/// A start split that waits for its complete split.
+#[derive(Debug, Clone, Copy)]
+struct Pending {
+    /// Microframes since the port was enabled.
+    microframe: u64,
+    order: u64,
+    /// Bytes that it carried.
+    bytes: usize,
+    /// A complete split failed: the start split may be repeated.
+    failed: bool,
+}
+
+/// What the core has split so far.
+#[derive(Debug, Default)]
+pub(super) struct SplitWatch {
+    pending: HashMap<Pipe, Pending>,
+    starts: u64,
+    /// Per hub: microframe, and how many periodic start splits went there in it.
+    crowd: HashMap<u8, (u64, u64)>,
+    /// Per hub: microframe, and the order of the last start split that was completed in it.
+    completed: HashMap<u8, (u64, u64)>,
+}
+
+impl SplitWatch {
+    /// The translator was told to forget this endpoint.
+    pub fn clear(&mut self, hub: u8, address: u8, endpoint: u8, input: bool) {
+        self.pending.remove(&(hub, address, endpoint, input));
+    }
+}
+
+fn pipe(program: &Program, split: Split) -> Pipe {
+    let input = program.input && !program.is_control();
+    (split.hub, program.target.address, program.target.endpoint, input)
+}
+
+impl Core {
+    pub(super) fn split(&mut self, index: usize, program: &Program, split: Split, memory: &mut dyn DmaBus) {
+        if split.complete {
+            self.complete_split(index, program, split, memory);
+        } else {
+            self.start_split(index, program, split, memory);
+        }
+    }
+
+    fn token(&self, program: &Program, split: Split) -> Token {
+        let microframe = self.frame_index(self.now);
+        Token {
+            hub: split.hub,
+            port: split.port,
+            kind: program.kind.unwrap_or(Kind::Control),
+            speed: if program.low_speed { Speed::Low } else { Speed::Full },
+            target: program.target,
+            input: program.input,
+            microframe_start: self.frame_start(microframe),
+            microframe: (microframe % 8) as u8,
+        }
+    }
+
+    fn start_split(&mut self, index: usize, program: &Program, split: Split, memory: &mut dyn DmaBus) {
+        self.check_start_split(program, split);
+        let token = self.token(program, split);
+        let start = if program.input {
+            Start::In
+        } else {
+            let Some(bytes) = self.fetch(index, program.bytes.min(program.packet_bytes), memory) else { return };
+            match <[u8; 8]>::try_from(bytes.as_slice()) {
+                Ok(packet) if program.is_setup() => Start::Setup(packet),
+                _ => Start::Out(program.toggle(), bytes),
+            }
+        };
+        let Some(hub) = self.device.as_mut().and_then(|device| device.translator()) else {
+            return self.finish(index, HCINT_NO_ANSWER, memory);
+        };
+        let answer = hub.start_split(self.now, token, start.clone());
+        let heard = match answer {
+            // Nobody answers a periodic start split; the core takes it as sent.
+            _ if program.periodic() => HCINT_ACK,
+            Started::Ack => HCINT_ACK,
+            Started::Nak => HCINT_NAK,
+            Started::Silent => HCINT_NO_ANSWER,
+        };
+        if heard == HCINT_ACK {
+            self.splits.starts += 1;
+            let (microframe, order) = (self.frame_index(self.now), self.splits.starts);
+            let pending = Pending { microframe, order, bytes: program.bytes, failed: false };
+            self.splits.pending.insert(pipe(program, split), pending);
+            if let Start::Setup(packet) = start {
+                self.snoop.setup(program, packet);
+            }
+        }
+        self.finish(index, heard, memory);
+    }
+
+    fn check_start_split(&mut self, program: &Program, split: Split) {
+        let microframe = self.frame_index(self.now);
+        let owed = self.splits.pending.get(&pipe(program, split));
+        if !program.periodic() && owed.is_some_and(|pending| !pending.failed) {
+            self.blame(Rule::SplitRestarted, program.name());
+        }
+        if program.periodic() {
+            if microframe % 8 == 6 {
+                self.blame(Rule::StartSplitFrame, format!("{} in microframe {microframe}", program.name()));
+            }
+            let crowd = self.splits.crowd.entry(split.hub).or_default();
+            *crowd = if crowd.0 == microframe { (microframe, crowd.1 + 1) } else { (microframe, 1) };
+            if crowd.1 > CROWD {
+                self.blame(Rule::StartSplitCrowd, program.name());
+            }
+        }
+    }
+
+    fn complete_split(&mut self, index: usize, program: &Program, split: Split, memory: &mut dyn DmaBus) {
+        self.check_complete_split(program, split);
+        let token = self.token(program, split);
+        let Some(hub) = self.device.as_mut().and_then(|device| device.translator()) else {
+            return self.finish(index, HCINT_NO_ANSWER, memory);
+        };
+        let answer = hub.complete_split(self.now, token);
+        let key = pipe(program, split);
+        match answer {
+            Completed::Nyet => return self.finish(index, HCINT_NYET, memory),
+            Completed::Error | Completed::Silent => {
+                if let Some(pending) = self.splits.pending.get_mut(&key) {
+                    pending.failed = true;
+                }
+                return self.finish(index, HCINT_NO_ANSWER, memory);
+            }
+            _ => {}
+        }
+        let carried = self.splits.pending.remove(&key).map_or(0, |pending| pending.bytes);
+        match answer {
+            Completed::Data(toggle, bytes) => {
+                self.split_data(index, program, toggle == program.toggle(), &bytes, memory)
+            }
+            Completed::Part(bytes) => {
+                self.snoop.part(program);
+                if self.store(index, &bytes, memory) {
+                    let channel = &mut self.channels[index];
+                    channel.packet_done(bytes.len());
+                    channel.size |= MDATA << 29;
+                    self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+                }
+            }
+            Completed::Ack => {
+                // A SETUP was noted when its start split was taken.
+                if !program.is_setup() {
+                    self.snoop.packet(program, carried, false);
+                }
+                self.channels[index].packet_done(0);
+                self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+            }
+            Completed::Nak => self.finish(index, HCINT_NAK, memory),
+            _ => {
+                self.snoop.stall(program);
+                self.finish(index, HCINT_STALL, memory);
+            }
+        }
+    }
+
+    fn split_data(&mut self, index: usize, program: &Program, right: bool, bytes: &[u8], memory: &mut dyn DmaBus) {
+        if bytes.len() > program.packet_bytes {
+            return self.finish(index, HCINT_BABBLE, memory);
+        }
+        if !right {
+            return self.finish(index, HCINT_TOGGLE | HCINT_ACK, memory);
+        }
+        if self.store(index, bytes, memory) {
+            self.snoop.packet(program, bytes.len(), false);
+            self.channels[index].packet_done(bytes.len());
+            self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+        }
+    }
+
+    fn check_complete_split(&mut self, program: &Program, split: Split) {
+        let microframe = self.frame_index(self.now);
+        let Some(pending) = self.splits.pending.get(&pipe(program, split)).copied() else {
+            return self.blame(Rule::CompleteWithoutStart, program.name());
+        };
+        if !program.periodic() {
+            return;
+        }
+        let since = microframe - pending.microframe;
+        if !(2..=4).contains(&since) {
+            self.blame(Rule::CompleteSplitFrame, format!("{} {since} microframes after its start", program.name()));
+        }
+        let last = self.splits.completed.entry(split.hub).or_default();
+        let out_of_order = last.0 == microframe && last.1 > pending.order;
+        *last = (microframe, pending.order.max(if last.0 == microframe { last.1 } else { 0 }));
+        if out_of_order {
+            self.blame(Rule::CompleteSplitOrder, program.name());
+        }
+    }
+}

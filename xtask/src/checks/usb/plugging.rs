@@ -1,0 +1,93 @@
+//! Devices that come, go, come again and take each other's place.
+
+use anyhow::ensure;
+use controls::DualShock3Report;
+use usb_model::dualshock3::Temper;
+
+use super::rig::{Rig, Server};
+use crate::checks::State;
+use crate::fake_pad::FakePad;
+use crate::qemu::UsbDevice;
+
+/// Times that a keyboard is pulled out and plugged in again.
+const ROUNDS: usize = 3;
+/// Reports that a pad says each time.
+const REPORTS: u32 = 20;
+
+/// Nothing, a keyboard, nothing, a keyboard … on the root port; then a pad in its place, and another
+/// one in that one's.
+pub fn on_the_root_port(state: &mut State) -> anyhow::Result<()> {
+    let keyboard = UsbDevice::keyboard("1");
+    let mut rig = Rig::start(state, "usb-plugging", Vec::new())?;
+    let mut typed = 0;
+    for round in 1..=ROUNDS {
+        rig.plug(&keyboard)?;
+        rig.told("usb root: keyboard (", round)?;
+        typed += type_a_key(&mut rig, typed)?;
+        rig.unplug(&keyboard)?;
+        rig.told("usb root: keyboard has gone", round)?;
+    }
+    rig.quit(0)?;
+
+    let (server, pad) = (Server::new()?, FakePad::new(0));
+    let mut rig = Rig::start(state, "usb-plugging-pads", vec![server.at("1")])?;
+    swap_pads(&mut rig, &server, &pad, "usb root: DualShock 3")?;
+    println!("{ROUNDS} keyboards and 4 pads came and went on the root port");
+    rig.quit(0)
+}
+
+/// The same behind a hub, the keyboard and the pad at once.
+pub fn behind_a_hub(state: &mut State) -> anyhow::Result<()> {
+    let (server, pad) = (Server::new()?, FakePad::new(0));
+    let keyboard = UsbDevice::keyboard("1.1");
+    let mut rig = Rig::start(state, "usb-plugging-behind-hub", vec![UsbDevice::hub("1"), server.at("1.2")])?;
+    rig.told("usb root: hub with 8 ports", 1)?;
+    let mut typed = 0;
+    for round in 1..=ROUNDS {
+        rig.plug(&keyboard)?;
+        rig.told("usb 1: keyboard (", round)?;
+        typed += type_a_key(&mut rig, typed)?;
+        rig.unplug(&keyboard)?;
+        rig.told("usb 1: keyboard has gone", round)?;
+    }
+    rig.plug(&keyboard)?;
+    swap_pads(&mut rig, &server, &pad, "usb 2: DualShock 3")?;
+    // The keyboard beside the pads has stayed.
+    typed += type_a_key(&mut rig, typed)?;
+    ensure!(rig.status()?.tally.keyboard.count == typed, "the keyboard's reports are not all there");
+    println!("{ROUNDS} keyboards and 4 pads came and went behind a hub");
+    rig.quit(0)
+}
+
+/// Types a key; returns how many reports that made.
+fn type_a_key(rig: &mut Rig, typed: u32) -> anyhow::Result<u32> {
+    for (down, reports) in [(true, 1), (false, 2)] {
+        rig.key("c", down)?;
+        rig.until("the key's report", |tally| tally.keyboard.count == typed + reports)?;
+    }
+    Ok(2)
+}
+
+/// Plugs a pad in, out, and in again; then others, without a pause, in its place.
+fn swap_pads(rig: &mut Rig, server: &Server, pad: &FakePad, name: &str) -> anyhow::Result<()> {
+    let (came, went) = (format!("{name} ("), format!("{name} has gone"));
+    for (round, pull_out) in [(1, true), (2, false), (3, false), (4, true)] {
+        server.socket.plug_in(pad.device(Temper::Sony));
+        rig.told(&came, round)?;
+        rig.told(&went, round - 1)?;
+        for number in 0..REPORTS {
+            let mut report = DualShock3Report::default().to_bytes();
+            report[48] = number as u8;
+            report[7] = round as u8;
+            pad.say(report);
+        }
+        let wanted = pad.said().count + REPORTS;
+        let tally = rig.until("the pad's reports", |tally| tally.pad.count >= wanted)?;
+        ensure!(tally.pad == pad.said(), "pad {round} said {:?}, the firmware took in {:?}", pad.said(), tally.pad);
+        if pull_out {
+            server.socket.pull_out();
+            rig.told(&went, round)?;
+        }
+    }
+    server.check()
+}
