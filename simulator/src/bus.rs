@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering::Re
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::cache::{Attribute, Caches, Operation};
-use crate::devices::Hardware;
-use crate::memory::Memory;
+use crate::devices::{Hardware, ResetCause};
+use crate::memory::{LINE_BYTES, Memory};
 use crate::time::Clocks;
 use crate::violation::{Access, Violation};
 
@@ -82,6 +82,19 @@ impl Bus {
     /// Returns the SDRAM, for a loader or an onlooker.
     pub fn sdram(&self) -> &Memory {
         &self.sdram
+    }
+
+    /// Returns the on-chip RAM.
+    pub fn ocram(&self) -> &Memory {
+        &self.ocram
+    }
+
+    /// Resets everything but memory and time, up to where U-Boot starts the program again.
+    pub fn restart(&self, cause: ResetCause) {
+        self.hardware().restart(cause);
+        self.caches.restart(&self.sdram);
+        self.set_translation(false, false);
+        self.set_interrupt(false);
     }
 
     /// Returns the time.
@@ -277,11 +290,12 @@ impl Bus {
     /// # Errors
     /// When the run must stop.
     pub fn dma_read(&self, address: u32, bytes: &mut [u8]) -> Result<(), Refused> {
-        for (address, byte) in (address..).zip(bytes) {
+        for (index, (address, byte)) in (address..).zip(bytes).enumerate() {
             let Some(ram) = self.ram(address) else {
                 return Err(self.refuse(Access::DmaRead, address, "no memory", "an address in memory"));
             };
-            if let Err(needed) = self.caches.dma_read(ram, address) {
+            let new_line = index == 0 || address.is_multiple_of(LINE_BYTES);
+            if new_line && let Err(needed) = self.caches.dma_read(ram, address) {
                 return Err(self.refuse(Access::DmaRead, address, "memory", needed));
             }
             *byte = ram.read(address, 1) as u8;
@@ -294,11 +308,12 @@ impl Bus {
     /// # Errors
     /// When the run must stop.
     pub fn dma_write(&self, address: u32, bytes: &[u8]) -> Result<(), Refused> {
-        for (address, byte) in (address..).zip(bytes) {
+        for (index, (address, byte)) in (address..).zip(bytes).enumerate() {
             let Some(ram) = self.ram(address) else {
                 return Err(self.refuse(Access::DmaWrite, address, "no memory", "an address in memory"));
             };
-            if let Err(needed) = self.caches.dma_write(ram, address) {
+            let new_line = index == 0 || address.is_multiple_of(LINE_BYTES);
+            if new_line && let Err(needed) = self.caches.dma_write(ram, address) {
                 return Err(self.refuse(Access::DmaWrite, address, "memory", needed));
             }
             ram.write(address, 1, u32::from(*byte));

@@ -120,6 +120,18 @@ impl Caches {
         }
     }
 
+    /// Makes the caches what U-Boot leaves after a reset: nothing is known of any line.
+    pub fn restart(&self, memory: &Memory) {
+        memory.forget_lines();
+        let counts = self.counts();
+        let fresh = Self::as_uboot_leaves_them();
+        *self.lists() = fresh.lists.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.lists().counts = counts;
+        for flag in [&self.l2_on, &self.loader_in_l1, &self.loader_in_l2] {
+            flag.store(true, Relaxed);
+        }
+    }
+
     fn lists(&self) -> MutexGuard<'_, Lists> {
         self.lists.lock().unwrap_or_else(PoisonError::into_inner)
     }

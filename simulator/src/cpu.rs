@@ -45,6 +45,9 @@ pub trait Cpu {
     /// Runs until the deadline, or until it sleeps.
     fn run(&mut self) -> Pause;
 
+    /// Goes on at another address.
+    fn jump(&mut self, address: u32);
+
     /// Returns the registers, for a report.
     fn registers(&self) -> Registers;
 

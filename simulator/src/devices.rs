@@ -1,6 +1,7 @@
 //! Everything on the buses that is not memory: where it lies, what it needs to answer, and what
 //! wires run between the blocks.
 
+pub mod board_io;
 pub mod bridges;
 pub mod clock_manager;
 pub mod fpga_manager;

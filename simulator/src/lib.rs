@@ -3,7 +3,7 @@
 //!
 //! | module | holds |
 //! | --- | --- |
-//! | [`machine`] | [`Machine`]: power-on, running, faults, pictures |
+//! | [`machine`] | [`PowerOn`] makes a [`Machine`]: running, restarting, pictures |
 //! | [`image`] | the program, from an ELF file or a raw binary |
 //! | [`cpu`] | the processor, behind a trait |
 //! | [`bus`], [`memory`] | what the processor sees |
@@ -28,5 +28,5 @@ pub mod time;
 pub mod violation;
 
 pub use image::Image;
-pub use machine::Machine;
+pub use machine::{Event, Machine, PowerOn};
 pub use violation::Violation;

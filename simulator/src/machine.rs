@@ -1,32 +1,28 @@
 //! The whole board.
 
+mod power_on;
 mod uboot;
 
-use std::sync::Arc;
+use std::sync::{Arc, MutexGuard};
+
+pub use power_on::PowerOn;
 
 use crate::bus::Bus;
+use crate::cache::Counts;
 use crate::cpu::rsemu::Interpreter;
 use crate::cpu::{Cpu, Pause, Registers};
-use crate::devices::fpga_manager::FpgaManager;
 use crate::devices::{Hardware, ResetCause};
+use crate::fpga::{Fpga, Screen};
 use crate::image::{Image, LOAD_ADDRESS};
-use crate::time::Clocks;
+use crate::time::{Clocks, milliseconds};
 use crate::violation::Violation;
 
-/// What a machine is made with.
-#[derive(Debug, Clone, Copy)]
-pub struct Config {
-    /// Whether the FPGA is configured when the program starts.
-    pub fpga_configured: bool,
-    /// How the MSEL switch stands: 0b01010 lets the processor configure the FPGA.
-    pub msel: u32,
-}
-
-impl Default for Config {
-    fn default() -> Self {
-        Self { fpga_configured: true, msel: 0b01010 }
-    }
-}
+/// A place in the on-chip RAM with a branch to itself.
+const TRAP: u32 = 0xFFFF_FF00;
+/// `b .`
+const BRANCH_TO_SELF: u32 = 0xEAFF_FFFE;
+/// Longest time that a screen takes to be scanned out.
+const SCAN_OUT: Clocks = milliseconds(50);
 
 /// Why a run paused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +31,7 @@ pub enum Event {
     Limit,
     /// The condition holds.
     Met,
-    /// The processor was reset; the next run starts the program again.
+    /// The processor was reset; U-Boot has started the program again, and the next run goes on there.
     Reset(ResetCause),
 }
 
@@ -43,44 +39,26 @@ pub enum Event {
 pub struct Machine {
     bus: Arc<Bus>,
     cpu: Interpreter,
+    card: Image,
     console: Vec<u8>,
 }
 
 impl Machine {
-    /// Returns the board after power-on, about to start the program.
-    pub fn new(image: Image, config: &Config) -> Self {
-        let fpga_manager = FpgaManager::new(config.fpga_configured, config.msel);
-        let bus = Arc::new(Bus::new(Hardware::as_uboot_leaves_it(None, fpga_manager)));
-        let mut cpu = Interpreter::new(Arc::clone(&bus));
-        for (address, bytes) in &image.parts {
-            bus.sdram().load(*address, bytes);
-        }
-        uboot::write_translation_table(bus.sdram());
-        cpu.start(&uboot::start(LOAD_ADDRESS));
-        Self { bus, cpu, console: Vec::new() }
-    }
-
     /// Runs until a condition holds, for at most `limit` of virtual time. The condition is asked
     /// after whatever happens outside of the processor.
     ///
     /// # Errors
     /// [`Violation`] when the program did what would not work on the board.
     pub fn run_until(&mut self, limit: Clocks, mut met: impl FnMut(&Self) -> bool) -> Result<Event, Violation> {
-        let end = self.bus.now().saturating_add(limit);
+        let end = self.now().saturating_add(limit);
         loop {
-            let now = self.bus.now();
-            let reset = {
-                let mut hardware = self.bus.hardware();
-                hardware.advance(now);
-                self.bus.set_interrupt(hardware.interrupt());
-                self.bus.set_deadline(hardware.next_event(now).min(end));
-                self.console.extend(hardware.uart0.take_sent());
-                hardware.take_reset()
-            };
+            let now = self.now();
+            let (reset, hung) = self.attend(now, end);
             if let Some(violation) = self.bus.take_violation() {
                 return Err(Violation { disassembly: self.cpu.disassemble(violation.instruction), ..violation });
             }
             if let Some(cause) = reset {
+                self.restart(cause);
                 return Ok(Event::Reset(cause));
             }
             if met(self) {
@@ -89,21 +67,131 @@ impl Machine {
             if now >= end {
                 return Ok(Event::Limit);
             }
-            if self.cpu.run() == Pause::Asleep {
-                let until = self.bus.hardware().next_event(self.bus.now()).min(end);
-                self.bus.set_now(until.max(self.bus.now()));
+            if hung || self.cpu.run() == Pause::Asleep {
+                let until = self.bus.hardware().next_event(self.now()).min(end);
+                self.bus.set_now(until.max(self.now()));
             }
         }
     }
 
-    /// Returns what the console's line has carried so far.
+    /// Brings everything but the processor up to now; returns the reset that is due, and whether
+    /// the processor waits for ever.
+    fn attend(&mut self, now: Clocks, end: Clocks) -> (Option<ResetCause>, bool) {
+        let mut hardware = self.bus.hardware();
+        hardware.advance(now);
+        self.bus.set_interrupt(hardware.interrupt());
+        self.bus.set_deadline(hardware.next_event(now).min(end));
+        self.console.extend(hardware.uart0.take_sent());
+        (hardware.take_reset(), hardware.hung())
+    }
+
+    /// Runs for a time.
+    ///
+    /// # Errors
+    /// As [`run_until`](Self::run_until).
+    pub fn run(&mut self, time: Clocks) -> Result<Event, Violation> {
+        self.run_until(time, |_| false)
+    }
+
+    /// Runs until the console has said something, since power-on.
+    ///
+    /// # Errors
+    /// As [`run_until`](Self::run_until).
+    pub fn run_until_console(&mut self, limit: Clocks, text: &str) -> Result<Event, Violation> {
+        self.run_until(limit, |machine| machine.console_text().contains(text))
+    }
+
+    /// Runs until so many frames were shown since power-on.
+    ///
+    /// # Errors
+    /// As [`run_until`](Self::run_until).
+    pub fn run_until_frame(&mut self, limit: Clocks, frames: u64) -> Result<Event, Violation> {
+        self.run_until(limit, |machine| machine.frames_shown() >= frames)
+    }
+
+    fn restart(&mut self, cause: ResetCause) {
+        self.bus.restart(cause);
+        self.cpu = Interpreter::new(Arc::clone(&self.bus));
+        self.load();
+    }
+
+    /// What boot ROM and U-Boot do.
+    fn load(&mut self) {
+        for (address, bytes) in &self.card.parts {
+            self.bus.sdram().load(*address, bytes);
+        }
+        uboot::write_translation_table(self.bus.sdram());
+        self.cpu.start(&uboot::start(LOAD_ADDRESS));
+    }
+
+    /// Makes the program hang: the processor runs in a circle, and serves interrupts.
+    pub fn hang(&mut self) {
+        self.bus.ocram().set_word(TRAP, BRANCH_TO_SELF);
+        self.cpu.jump(TRAP);
+    }
+
+    /// Returns what the console's line has carried since power-on.
     pub fn console(&self) -> &[u8] {
         &self.console
+    }
+
+    /// Returns the console's line as text.
+    pub fn console_text(&self) -> String {
+        String::from_utf8_lossy(&self.console).into_owned()
+    }
+
+    /// Sends bytes to the board over the console's line.
+    pub fn send(&mut self, bytes: &[u8]) {
+        let now = self.now();
+        self.bus.hardware().uart0.feed(bytes, now);
     }
 
     /// Returns the time since power-on.
     pub fn now(&self) -> Clocks {
         self.bus.now()
+    }
+
+    /// Returns how many frames were shown since power-on.
+    pub fn frames_shown(&self) -> u64 {
+        self.bus.hardware().fpga.frames_shown()
+    }
+
+    /// Runs until what shows now has been scanned out as a whole, and returns that screen.
+    ///
+    /// # Errors
+    /// As [`run_until`](Self::run_until).
+    pub fn screen(&mut self) -> Result<Option<Screen>, Violation> {
+        let whole = self.bus.hardware().fpga.scanned_out(self.now());
+        let left = whole.saturating_sub(self.now()).min(SCAN_OUT);
+        self.run(left)?;
+        Ok(self.bus.hardware().fpga.screen())
+    }
+
+    /// Returns everything that is not memory: to look at, to press keys, to break.
+    pub fn hardware(&self) -> MutexGuard<'_, Hardware> {
+        self.bus.hardware()
+    }
+
+    /// Configures the FPGA from outside, as over JTAG, or takes its power.
+    pub fn set_fpga_configured(&mut self, configured: bool) {
+        let mut hardware = self.bus.hardware();
+        hardware.fpga_manager.set_configured(configured);
+        hardware.design_starts();
+    }
+
+    /// Returns bytes of the SDRAM.
+    pub fn memory(&self, address: u32, count: usize) -> Vec<u8> {
+        self.bus.sdram().bytes(address, count)
+    }
+
+    /// Writes bytes to the SDRAM behind the processor's back, as U-Boot's `load` does before the start.
+    pub fn load_memory(&mut self, address: u32, bytes: &[u8]) {
+        self.bus.sdram().load(address, bytes);
+    }
+
+    /// Returns how often caches were maintained and bus masters were at work.
+    pub fn cache_counts(&self) -> Counts {
+        self.bus.caches.counts()
     }
 
     /// Returns the processor's registers.

@@ -99,6 +99,13 @@ impl Memory {
         &chunk.lines[(offset / LINE_BYTES) as usize]
     }
 
+    /// Forgets what is known of all lines.
+    pub fn forget_lines(&self) {
+        for line in self.chunks.iter().filter_map(OnceLock::get).flat_map(|chunk| &chunk.lines) {
+            line.store(0, Relaxed);
+        }
+    }
+
     /// Fills the line that begins at an address with garbage: what it held is lost.
     pub fn poison(&self, line: u32) {
         for address in (line..).step_by(4).take((LINE_BYTES / 4) as usize) {

@@ -106,6 +106,10 @@ impl Cpu for Interpreter {
         }
     }
 
+    fn jump(&mut self, address: u32) {
+        self.arm.set_pc(address);
+    }
+
     fn registers(&self) -> Registers {
         let registers = self.arm.regs();
         Registers { general: registers.r, status: registers.cpsr }

@@ -78,6 +78,12 @@ impl FpgaManager {
         (self.done, self.failed, self.taken) = (configured, false, 0);
     }
 
+    /// Starts over with the processor; the FPGA stays as it is.
+    pub fn restart(&mut self) {
+        let (expected, configured) = (self.expected.take(), self.configured());
+        *self = Self { expected, ..Self::new(configured, self.msel) };
+    }
+
     /// Returns whether the design runs.
     pub fn configured(&self) -> bool {
         self.mode == Mode::User

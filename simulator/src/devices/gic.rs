@@ -96,8 +96,8 @@ impl Gic {
         }
         let pending = self.pending_words();
         let mut best: Option<usize> = None;
-        for word in 0..WORDS {
-            let mut bits = pending[word] & self.enabled[word] & !self.active[word];
+        for (word, pending) in pending.iter().enumerate() {
+            let mut bits = pending & self.enabled[word] & !self.active[word];
             while bits != 0 {
                 let id = word * 32 + bits.trailing_zeros() as usize;
                 bits &= bits - 1;

@@ -1,5 +1,6 @@
 //! All blocks together, and the wires between them.
 
+use super::board_io::BoardIo;
 use super::bridges::{self, Agent, Gates};
 use super::clock_manager::ClockManager;
 use super::fpga_manager::FpgaManager;
@@ -18,6 +19,7 @@ use super::uart::Uart;
 use super::{Answer, no_register};
 use crate::bus::Bus;
 use crate::fpga::Fpga;
+use crate::fpga::faulty::Faulty;
 use crate::time::{BRIDGE_READ, Clocks, REGISTER_READ, REGISTER_WRITE};
 use crate::violation::Access;
 
@@ -75,7 +77,9 @@ pub struct Hardware {
     /// The reset manager.
     pub resets: ResetManager,
     /// The design in the FPGA; it runs while the FPGA is configured.
-    pub fpga: Option<Box<dyn Fpga + Send>>,
+    pub fpga: Faulty,
+    /// The board's own inputs and outputs, in the design too.
+    pub board_io: BoardIo,
     clocks: ClockManager,
     system: SystemManager,
     l3: L3,
@@ -85,19 +89,21 @@ pub struct Hardware {
     private_timer: PrivateTimer,
     l4_watchdogs: [L4Watchdog; 2],
     gpio: [Gpio; 3],
-    interrupt_lost: bool,
     reset: Option<ResetCause>,
+    /// The processor waits for an answer that never comes.
+    hung: bool,
 }
 
 impl Hardware {
     /// Returns the blocks as U-Boot leaves them after a power-on.
-    pub fn as_uboot_leaves_it(fpga: Option<Box<dyn Fpga + Send>>, fpga_manager: FpgaManager) -> Self {
+    pub fn as_uboot_leaves_it(fpga: Faulty, fpga_manager: FpgaManager) -> Self {
         Self {
             uart0: Uart::as_uboot_leaves_it(),
             gic: Gic::default(),
             fpga_manager,
             resets: ResetManager::as_uboot_leaves_it(),
             fpga,
+            board_io: BoardIo::default(),
             clocks: ClockManager::default(),
             system: SystemManager::as_uboot_leaves_it(),
             l3: L3::default(),
@@ -107,9 +113,41 @@ impl Hardware {
             private_timer: PrivateTimer::default(),
             l4_watchdogs: Default::default(),
             gpio: BOARD_PINS.map(Gpio::new),
-            interrupt_lost: false,
             reset: None,
+            hung: false,
         }
+    }
+
+    /// Resets the processor's side, up to where U-Boot starts the program again. The FPGA stays
+    /// configured and its design is reset; pins stay as they are.
+    pub fn restart(&mut self, cause: ResetCause) {
+        self.uart0.restart();
+        self.resets = self.resets.after(cause);
+        self.design_starts();
+        self.fpga_manager.restart();
+        self.gic = Gic::default();
+        self.clocks = ClockManager::default();
+        self.system = SystemManager::as_uboot_leaves_it();
+        self.l3 = L3::default();
+        self.scu = Scu::default();
+        self.pl310 = Pl310::as_uboot_leaves_it();
+        self.global_timer = GlobalTimer::default();
+        self.private_timer = PrivateTimer::default();
+        self.l4_watchdogs = Default::default();
+        self.gpio.iter_mut().for_each(Gpio::reset);
+        self.reset = None;
+        self.hung = false;
+    }
+
+    /// Starts the design afresh: the FPGA was configured.
+    pub fn design_starts(&mut self) {
+        self.fpga.reset();
+        self.board_io.reset();
+    }
+
+    /// Returns whether the processor waits for an answer that never comes.
+    pub fn hung(&self) -> bool {
+        self.hung
     }
 
     /// Returns whether the snoop control unit is on.
@@ -134,7 +172,7 @@ impl Hardware {
 
     /// Returns whether the machine should look before the next instruction.
     pub fn attention(&self) -> bool {
-        self.reset.is_some() || self.resets.requests()
+        self.hung || self.reset.is_some() || self.resets.requests()
     }
 
     /// Takes the reset that is due.
@@ -154,34 +192,36 @@ impl Hardware {
                 self.reset = Some(ResetCause::L4Watchdog(index));
             }
         }
-        if let Some(fpga) = &mut self.fpga {
-            fpga.advance(now);
+        if self.fpga_manager.configured() {
+            self.fpga.advance(now);
         }
         self.wire(now);
     }
 
     /// Sets the interrupt controller's inputs.
     fn wire(&mut self, now: Clocks) {
-        let fpga = self.fpga_manager.configured() && self.fpga.as_ref().is_some_and(|fpga| fpga.interrupt());
-        let mut levels = vec![
+        let levels = [
             (interrupt::GLOBAL_TIMER, self.global_timer.interrupt()),
             (interrupt::PRIVATE_TIMER, self.private_timer.timer_interrupt()),
             (interrupt::PRIVATE_WATCHDOG, self.private_timer.watchdog_interrupt()),
-            (interrupt::FPGA, fpga && !self.interrupt_lost),
+            (interrupt::FPGA, self.fpga_manager.configured() && self.fpga.interrupt()),
             (interrupt::UART0, self.uart0.interrupt(now)),
         ];
-        levels.extend(self.gpio.iter().enumerate().map(|(index, gpio)| (interrupt::GPIO0 + index, gpio.interrupt())));
-        let watchdogs = self.l4_watchdogs.iter().enumerate();
-        levels.extend(watchdogs.map(|(index, watchdog)| (interrupt::L4_WATCHDOG0 + index, watchdog.interrupt())));
         for (id, level) in levels {
             self.gic.set_level(id, level);
+        }
+        for (index, gpio) in self.gpio.iter().enumerate() {
+            self.gic.set_level(interrupt::GPIO0 + index, gpio.interrupt());
+        }
+        for (index, watchdog) in self.l4_watchdogs.iter().enumerate() {
+            self.gic.set_level(interrupt::L4_WATCHDOG0 + index, watchdog.interrupt());
         }
     }
 
     /// Returns when something happens by itself.
     pub fn next_event(&self, now: Clocks) -> Clocks {
         let watchdogs = self.l4_watchdogs.iter().map(L4Watchdog::next_event).min().unwrap_or(Clocks::MAX);
-        let fpga = self.fpga.as_ref().map_or(Clocks::MAX, |fpga| fpga.next_event(now));
+        let fpga = if self.fpga_manager.configured() { self.fpga.next_event(now) } else { Clocks::MAX };
         [
             self.uart0.next_event(now),
             self.global_timer.next_event(now),
@@ -210,7 +250,11 @@ impl Hardware {
         };
         let done = self.ready(row).and_then(|block| {
             self.advance(now);
+            let configured = self.fpga_manager.configured();
             let done = self.dispatch(block, access, address - row.start, now, bus)?;
+            if !configured && self.fpga_manager.configured() {
+                self.design_starts();
+            }
             self.wire(now);
             Ok(done)
         });
@@ -321,18 +365,23 @@ impl Hardware {
             fpga: &self.fpga_manager,
         };
         let (agent, offset) = bridges::agent(bridge, offset, &gates)?;
-        let Some(fpga) = &mut self.fpga else {
-            return Err("a design in the FPGA: the simulator was given none".into());
-        };
+        if self.fpga.faults.hangs {
+            self.hung = true;
+            return Ok((0, 0));
+        }
         match (agent, value) {
-            (Agent::Registers, None) => Ok((fpga.read(offset, now), BRIDGE_READ)),
+            (Agent::Registers, None) => Ok((self.fpga.read(offset, now), BRIDGE_READ)),
             (Agent::Registers, Some(value)) => {
-                fpga.write(offset, value, now);
+                self.fpga.write(offset, value, now);
                 Ok((0, REGISTER_WRITE))
             }
-            (Agent::Fifo, Some(word)) => Ok((0, REGISTER_WRITE + fpga.push(word, now))),
+            (Agent::Fifo, Some(word)) => Ok((0, REGISTER_WRITE + self.fpga.push(word, now))),
             (Agent::Fifo, None) => Err("a write: the FIFO's aperture is not read".into()),
-            (Agent::BoardIo, _) => no_register(offset),
+            (Agent::BoardIo, None) => Ok((self.board_io.read(offset)?, BRIDGE_READ)),
+            (Agent::BoardIo, Some(value)) => {
+                self.board_io.write(offset, value)?;
+                Ok((0, REGISTER_WRITE))
+            }
         }
     }
 }

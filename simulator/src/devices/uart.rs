@@ -83,6 +83,13 @@ impl Uart {
         *self = Self { sent, line, lost, ..Self::after_reset() };
     }
 
+    /// Starts over as U-Boot sets it up; the line's other end does not notice.
+    pub fn restart(&mut self) {
+        self.reset();
+        let Self { divisor, fifo_control, line_control, .. } = Self::as_uboot_leaves_it();
+        (self.divisor, self.fifo_control, self.line_control) = (divisor, fifo_control, line_control);
+    }
+
     /// Sends bytes from the line's other end, one after the other.
     pub fn feed(&mut self, bytes: &[u8], now: Clocks) {
         self.line.extend(bytes);
