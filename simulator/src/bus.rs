@@ -1,7 +1,11 @@
 //! What the processor sees: RAM, and registers behind [`Hardware`].
 
+mod lent;
+
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use lent::Lent;
 
 use crate::cache::{Attribute, Caches, Operation};
 use crate::devices::{Hardware, ResetCause};
@@ -24,6 +28,9 @@ const BARRIER: u32 = 0xF57F_F040;
 const BARRIER_MASK: u32 = 0xFFFF_FFC0;
 /// ISB looks almost the same.
 const BARRIER_ISB: u32 = 0x20;
+
+/// Beside a page's [`Attribute`]: a bus master has, or had, some of the page.
+const LENT: u8 = 1 << 7;
 
 /// Pages in the address space, of 4 KiB.
 const PAGES: usize = 1 << 20;
@@ -52,6 +59,7 @@ pub struct Bus {
     instruction: AtomicU32,
     interrupt: AtomicBool,
     violation: Mutex<Option<Violation>>,
+    lent: Lent,
 }
 
 impl Bus {
@@ -71,6 +79,7 @@ impl Bus {
             instruction: AtomicU32::new(0),
             interrupt: AtomicBool::new(false),
             violation: Mutex::new(None),
+            lent: Lent::default(),
         }
     }
 
@@ -91,7 +100,8 @@ impl Bus {
 
     /// Resets everything but memory and time, up to where U-Boot starts the program again.
     pub fn restart(&self, cause: ResetCause) {
-        self.hardware().restart(cause);
+        self.hardware().restart(cause, self.now(), self);
+        self.lent.clear();
         self.caches.restart(&self.sdram);
         self.set_translation(false, false);
         self.set_interrupt(false);
@@ -148,7 +158,8 @@ impl Bus {
 
     /// Notes what a translation says of a physical page.
     pub fn set_attribute(&self, address: u32, attribute: Attribute) {
-        self.attributes[(address >> 12) as usize].store(attribute as u8, Relaxed);
+        let page = &self.attributes[(address >> 12) as usize];
+        page.store(page.load(Relaxed) & LENT | attribute as u8, Relaxed);
     }
 
     /// Returns what kind of memory an address is now.
@@ -157,11 +168,20 @@ impl Bus {
         if !self.mmu_on.load(Relaxed) {
             return Attribute::Device;
         }
-        match self.attributes[(address >> 12) as usize].load(Relaxed) {
+        match self.attributes[(address >> 12) as usize].load(Relaxed) & !LENT {
             2 if self.data_cache_on.load(Relaxed) => Attribute::Cached,
             1 | 2 => Attribute::Uncached,
             _ => Attribute::Device,
         }
+    }
+
+    /// Says what is wrong with an access by the processor to what a bus master has.
+    #[inline]
+    fn check_lent(&self, address: u32, bytes: u32, writes: bool) -> Result<(), &'static str> {
+        if self.attributes[(address >> 12) as usize].load(Relaxed) & LENT == 0 {
+            return Ok(());
+        }
+        self.lent.check(address, bytes, writes)
     }
 
     #[inline]
@@ -209,7 +229,8 @@ impl Bus {
                 return Ok(ram.read(address, bytes));
             }
             let cached = self.attribute(address) == Attribute::Cached;
-            return match self.caches.read(ram, address, cached) {
+            let done = self.check_lent(address, bytes, false).and_then(|()| self.caches.read(ram, address, cached));
+            return match done {
                 Ok(()) => Ok(ram.read(address, bytes)),
                 Err(needed) => Err(self.refuse(Access::Read(bytes), address, "memory", needed)),
             };
@@ -224,7 +245,9 @@ impl Bus {
     #[inline]
     pub fn write(&self, address: u32, bytes: u32, value: u32) -> Result<(), Refused> {
         if let Some(ram) = self.ram(address) {
-            return match self.caches.write(ram, address, self.attribute(address)) {
+            let attribute = self.attribute(address);
+            let done = self.check_lent(address, bytes, true).and_then(|()| self.caches.write(ram, address, attribute));
+            return match done {
                 Ok(()) => {
                     ram.write(address, bytes, value);
                     Ok(())
@@ -319,6 +342,24 @@ impl Bus {
             ram.write(address, 1, u32::from(*byte));
         }
         Ok(())
+    }
+
+    /// Lends memory to a bus master's channel, which writes there or only reads.
+    pub fn lend(&self, channel: usize, address: u32, bytes: u32, writes: bool) {
+        self.lent.add(channel, address, bytes, writes);
+        for page in address >> 12..=address.saturating_add(bytes.saturating_sub(1)) >> 12 {
+            self.attributes[page as usize].fetch_or(LENT, Relaxed);
+        }
+    }
+
+    /// Takes back what a bus master's channel was lent.
+    pub fn give_back(&self, channel: usize) {
+        self.lent.remove(channel);
+    }
+
+    /// Returns whether the run is about to stop.
+    pub fn is_refusing(&self) -> bool {
+        self.violation.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
 
     /// Stops the run; the first reason counts.

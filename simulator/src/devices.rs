@@ -17,6 +17,7 @@ pub mod reset_manager;
 pub mod scu;
 pub mod system_manager;
 pub mod uart;
+pub mod usb;
 
 mod hardware;
 

@@ -78,7 +78,7 @@ impl Machine {
     /// the processor waits for ever.
     fn attend(&mut self, now: Clocks, end: Clocks) -> (Option<ResetCause>, bool) {
         let mut hardware = self.bus.hardware();
-        hardware.advance(now);
+        hardware.advance(now, &self.bus);
         self.bus.set_interrupt(hardware.interrupt());
         self.bus.set_deadline(hardware.next_event(now).min(end));
         self.console.extend(hardware.uart0.take_sent());

@@ -19,6 +19,8 @@ pub enum Access {
     DmaRead,
     /// A bus master other than the processor wrote.
     DmaWrite,
+    /// Broke a rule of a bus that the block drives.
+    Protocol,
 }
 
 impl fmt::Display for Access {
@@ -30,6 +32,7 @@ impl fmt::Display for Access {
             Self::Maintenance => write!(out, "maintenance of"),
             Self::DmaRead => write!(out, "DMA read from"),
             Self::DmaWrite => write!(out, "DMA write to"),
+            Self::Protocol => write!(out, "broken rule at"),
         }
     }
 }

@@ -16,6 +16,7 @@ use super::reset_manager::ResetManager;
 use super::scu::Scu;
 use super::system_manager::SystemManager;
 use super::uart::Uart;
+use super::usb::Usb;
 use super::{Answer, no_register};
 use crate::bus::Bus;
 use crate::fpga::Fpga;
@@ -61,6 +62,7 @@ mod interrupt {
     pub(super) const PRIVATE_TIMER: usize = 29;
     pub(super) const PRIVATE_WATCHDOG: usize = 30;
     pub(super) const FPGA: usize = fpga_regs::de1_soc::INTERRUPT as usize;
+    pub(super) const USB1: usize = 160;
     pub(super) const UART0: usize = 194;
     pub(super) const GPIO0: usize = 196;
     pub(super) const L4_WATCHDOG0: usize = 203;
@@ -80,6 +82,8 @@ pub struct Hardware {
     pub fpga: Faulty,
     /// The board's own inputs and outputs, in the design too.
     pub board_io: BoardIo,
+    /// The USB controller and what is plugged in.
+    pub usb: Usb,
     clocks: ClockManager,
     system: SystemManager,
     l3: L3,
@@ -104,6 +108,7 @@ impl Hardware {
             resets: ResetManager::as_uboot_leaves_it(),
             fpga,
             board_io: BoardIo::default(),
+            usb: Usb::new(),
             clocks: ClockManager::default(),
             system: SystemManager::as_uboot_leaves_it(),
             l3: L3::default(),
@@ -120,8 +125,9 @@ impl Hardware {
 
     /// Resets the processor's side, up to where U-Boot starts the program again. The FPGA stays
     /// configured and its design is reset; pins stay as they are.
-    pub fn restart(&mut self, cause: ResetCause) {
+    pub fn restart(&mut self, cause: ResetCause, now: Clocks, bus: &Bus) {
         self.uart0.restart();
+        self.usb.reset(now, bus);
         self.resets = self.resets.after(cause);
         self.design_starts();
         self.fpga_manager.restart();
@@ -181,7 +187,7 @@ impl Hardware {
     }
 
     /// Lets time pass, and wires follow.
-    pub fn advance(&mut self, now: Clocks) {
+    pub fn advance(&mut self, now: Clocks, bus: &Bus) {
         self.uart0.advance(now);
         self.global_timer.advance(now);
         if self.private_timer.advance(now) {
@@ -195,7 +201,15 @@ impl Hardware {
         if self.fpga_manager.configured() {
             self.fpga.advance(now);
         }
+        if self.usb_runs() {
+            self.usb.advance(now, bus);
+        }
         self.wire(now);
+    }
+
+    /// Returns whether the USB controller is out of reset and clocked.
+    fn usb_runs(&self) -> bool {
+        !self.resets.holds_peripheral(map::USB1_RESET) && self.clocks.runs(map::USB_MP)
     }
 
     /// Sets the interrupt controller's inputs.
@@ -205,6 +219,7 @@ impl Hardware {
             (interrupt::PRIVATE_TIMER, self.private_timer.timer_interrupt()),
             (interrupt::PRIVATE_WATCHDOG, self.private_timer.watchdog_interrupt()),
             (interrupt::FPGA, self.fpga_manager.configured() && self.fpga.interrupt()),
+            (interrupt::USB1, self.usb_runs() && self.usb.interrupt()),
             (interrupt::UART0, self.uart0.interrupt(now)),
         ];
         for (id, level) in levels {
@@ -220,6 +235,7 @@ impl Hardware {
 
     /// Returns when something happens by itself.
     pub fn next_event(&self, now: Clocks) -> Clocks {
+        let usb = if self.usb_runs() { self.usb.next_event() } else { Clocks::MAX };
         let watchdogs = self.l4_watchdogs.iter().map(L4Watchdog::next_event).min().unwrap_or(Clocks::MAX);
         let fpga = if self.fpga_manager.configured() { self.fpga.next_event(now) } else { Clocks::MAX };
         [
@@ -228,6 +244,7 @@ impl Hardware {
             self.private_timer.next_event(),
             watchdogs,
             fpga,
+            usb,
         ]
         .into_iter()
         .min()
@@ -249,7 +266,7 @@ impl Hardware {
             return Err(("nothing".into(), "a block of registers, or memory".into()));
         };
         let done = self.ready(row).and_then(|block| {
-            self.advance(now);
+            self.advance(now, bus);
             let configured = self.fpga_manager.configured();
             let done = self.dispatch(block, access, address - row.start, now, bus)?;
             if !configured && self.fpga_manager.configured() {
@@ -291,10 +308,10 @@ impl Hardware {
             self.write(block, offset, bytes, value, now, bus)?;
             return Ok((0, REGISTER_WRITE));
         }
-        Ok((self.read(block, offset, bytes, now)?, REGISTER_READ))
+        Ok((self.read(block, offset, bytes, now, bus)?, REGISTER_READ))
     }
 
-    fn read(&mut self, block: Block, offset: u32, bytes: u32, now: Clocks) -> Answer<u32> {
+    fn read(&mut self, block: Block, offset: u32, bytes: u32, now: Clocks, bus: &Bus) -> Answer<u32> {
         match block {
             Block::FpgaManager => self.fpga_manager.read(offset),
             Block::FpgaManagerData => Err("it is written only".into()),
@@ -311,7 +328,8 @@ impl Hardware {
             Block::PrivateTimer => self.private_timer.read(offset, now),
             Block::InterruptDistributor => self.gic.read_distributor(offset, bytes),
             Block::Pl310 => self.pl310.read(offset),
-            Block::Usb1 | Block::Bridge | Block::LightweightBridge => no_register(offset),
+            Block::Usb1 => Ok(self.usb.read(offset, bus)),
+            Block::Bridge | Block::LightweightBridge => no_register(offset),
         }
     }
 
@@ -324,7 +342,7 @@ impl Hardware {
             Block::Uart0 => self.uart0.write(offset, value, now),
             Block::L4Watchdog(index) => self.l4_watchdogs[index].write(offset, value, now),
             Block::ClockManager => self.clocks.write(offset, value),
-            Block::ResetManager => self.write_resets(offset, value),
+            Block::ResetManager => self.write_resets(offset, value, now, bus),
             Block::SystemManager => self.system.write(offset, value),
             Block::Scu => self.scu.write(offset, value),
             Block::InterruptInterface => self.gic.write_interface(offset, value),
@@ -332,12 +350,16 @@ impl Hardware {
             Block::PrivateTimer => self.private_timer.write(offset, value, now),
             Block::InterruptDistributor => self.gic.write_distributor(offset, bytes, value),
             Block::Pl310 => self.pl310.write(offset, value, bus),
-            Block::Usb1 | Block::Bridge | Block::LightweightBridge => no_register(offset),
+            Block::Usb1 => {
+                self.usb.write(offset, value, bus);
+                Ok(())
+            }
+            Block::Bridge | Block::LightweightBridge => no_register(offset),
         }
     }
 
     /// Writes the reset manager; what goes into reset forgets its state.
-    fn write_resets(&mut self, offset: u32, value: u32) -> Answer<()> {
+    fn write_resets(&mut self, offset: u32, value: u32, now: Clocks, bus: &Bus) -> Answer<()> {
         let before = self.resets.peripherals();
         self.resets.write(offset, value)?;
         let into = self.resets.peripherals() & !before;
@@ -349,6 +371,7 @@ impl Hardware {
             match row.block {
                 Some(Block::Gpio(index)) => self.gpio[index].reset(),
                 Some(Block::Uart0) => self.uart0.reset(),
+                Some(Block::Usb1) => self.usb.reset(now, bus),
                 Some(Block::L4Watchdog(index)) => self.l4_watchdogs[index] = L4Watchdog::default(),
                 _ => {}
             }

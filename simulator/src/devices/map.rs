@@ -84,7 +84,8 @@ const L4_MAIN: Gate = Gate::Main(0);
 const L4_MP: Gate = Gate::Main(2);
 const L4_SP: Gate = Gate::Main(3);
 const CONFIGURATION: Gate = Gate::Main(8);
-const USB_MP: Gate = Gate::Peripheral(2);
+/// The USB controllers' clock.
+pub(super) const USB_MP: Gate = Gate::Peripheral(2);
 
 const fn modelled(name: &'static str, start: u32, bytes: u32, block: Block) -> Row {
     Row { name, start, bytes, block: Some(block), reset: Reset::None, gate: Gate::None }
@@ -103,6 +104,9 @@ impl Row {
         Self { gate, ..self }
     }
 }
+
+/// Bit of PERMODRST.
+pub(super) const USB1_RESET: u32 = 3;
 
 const KIB: u32 = 1 << 10;
 const MIB: u32 = 1 << 20;
@@ -127,7 +131,7 @@ pub static MAP: &[Row] = &[
     unmodelled("NAND data", 0xFF90_0000, MIB),
     unmodelled("QSPI data", 0xFFA0_0000, MIB),
     unmodelled("USB0", 0xFFB0_0000, 256 * KIB).reset(2),
-    modelled("USB1", 0xFFB4_0000, 256 * KIB, Block::Usb1).reset(3).gate(USB_MP),
+    modelled("USB1", 0xFFB4_0000, 256 * KIB, Block::Usb1).reset(USB1_RESET).gate(USB_MP),
     unmodelled("NAND", 0xFFB8_0000, 64 * KIB).reset(4),
     modelled("FPGA manager's data", 0xFFB9_0000, 4 * KIB, Block::FpgaManagerData).gate(CONFIGURATION),
     unmodelled("CAN0", 0xFFC0_0000, 4 * KIB).reset(24),
