@@ -1,10 +1,11 @@
-//! Pad and keyboard, merged.
+//! Pad, keyboard and panel, merged.
 
 use crate::edges::EdgeLatch;
 use crate::keyboard_state::KeyboardState;
 use crate::pad_state::{Movement, PadState};
 use crate::{
-    Button, Config, ControllerState, DualShock3Report, KeyboardReport, Report, ReportError, Source, Stick, Tilt,
+    Button, Config, ControllerState, DualShock3Report, KeyboardReport, PanelReport, Report, ReportError, Source, Stick,
+    Tilt,
 };
 
 /// Takes in reports and keeps the [`ControllerState`] that they make.
@@ -16,6 +17,8 @@ pub struct Controls {
     config: Config,
     pad: Option<PadState>,
     keyboard: KeyboardState,
+    /// The panel's keys, as a keyboard's that do the same.
+    panel: KeyboardState,
     edges: EdgeLatch,
     /// The pose as it is, seen or not.
     tilt: Tilt,
@@ -35,6 +38,7 @@ impl Controls {
             config,
             pad: None,
             keyboard: KeyboardState::default(),
+            panel: KeyboardState::default(),
             edges: EdgeLatch::default(),
             tilt: Tilt::LEVEL,
             pad_leads: false,
@@ -52,6 +56,7 @@ impl Controls {
         match report {
             Report::DualShock3(bytes) => self.accept_dualshock3(bytes),
             Report::Keyboard(bytes) => self.accept_keyboard(bytes),
+            Report::Panel(bytes) => self.accept_panel(bytes),
             Report::Disconnected(source) => {
                 self.disconnect(source);
                 Ok(())
@@ -106,11 +111,25 @@ impl Controls {
         Ok(())
     }
 
+    /// Takes in what a board's own keys and switches are, 3 bytes.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError::PanelLength`]; nothing has changed then.
+    pub fn accept_panel(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
+        if self.panel.update(PanelReport::parse(bytes)?.as_keyboard()) {
+            self.last_moved = Some(Source::Panel);
+            self.merge();
+        }
+        Ok(())
+    }
+
     /// Lets go of everything that a source holds. The tilt stays where it is.
     pub fn disconnect(&mut self, source: Source) {
         match source {
             Source::DualShock3 => self.pad = None,
             Source::Keyboard => self.keyboard = KeyboardState::default(),
+            Source::Panel => self.panel = KeyboardState::default(),
         }
         self.merge();
     }
@@ -122,8 +141,10 @@ impl Controls {
         ControllerState {
             tilt: self.frozen.unwrap_or(self.tilt),
             frozen: self.frozen.is_some(),
-            left_stick: stick(|pad| pad.left_stick).merged(self.keyboard.left_stick()),
-            right_stick: stick(|pad| pad.right_stick).merged(self.keyboard.right_stick()),
+            left_stick: stick(|pad| pad.left_stick).merged(self.keyboard.left_stick()).merged(self.panel.left_stick()),
+            right_stick: stick(|pad| pad.right_stick)
+                .merged(self.keyboard.right_stick())
+                .merged(self.panel.right_stick()),
             held: self.edges.held,
             pressed: self.edges.pressed,
             released: self.edges.released,
@@ -137,21 +158,27 @@ impl Controls {
     /// or were tapped in it: a key that is down at n ends of frames turns n times, and at least once.
     pub fn end_frame(&mut self) {
         let rate = self.config.key_tilt_degrees_per_frame;
-        let [roll, pitch] = self.keyboard.turning();
-        if [roll, pitch] != [0, 0] {
-            let step = |way: i32| rate.saturating_mul_int(way);
-            self.tilt = self.tilt.turned(step(roll), step(pitch));
-            self.keys_lead();
-            self.last_moved = Some(Source::Keyboard);
+        let mut turned = false;
+        for (keys, source) in [(&mut self.keyboard, Source::Keyboard), (&mut self.panel, Source::Panel)] {
+            let [roll, pitch] = keys.turning();
+            keys.end_frame();
+            if [roll, pitch] != [0, 0] {
+                let step = |way: i32| rate.saturating_mul_int(way);
+                self.tilt = self.tilt.turned(step(roll), step(pitch));
+                self.last_moved = Some(source);
+                turned = true;
+            }
         }
-        self.keyboard.end_frame();
+        if turned {
+            self.keys_lead();
+        }
         self.edges.end_frame();
     }
 
     /// Makes one of both sources after either has changed.
     fn merge(&mut self) {
         let before = self.tilt;
-        let mut held = self.keyboard.held;
+        let mut held = self.keyboard.held | self.panel.held;
         if let Some(pad) = &self.pad {
             held |= pad.held;
             if self.pad_leads {

@@ -1,4 +1,5 @@
-//! Turns reports of a DualShock 3, a USB keyboard or a serial line into one [`ControllerState`].
+//! Turns reports of a DualShock 3, a USB keyboard, a board's own buttons or a serial line into one
+//! [`ControllerState`].
 //!
 //! The crate reads bytes that somebody else fetched and stands on no bus, clock or board. Integers
 //! throughout, but for the stick's response curve.
@@ -32,13 +33,14 @@
 //! | no effect yet | D-pad; Triangle, Circle, Square, PS; L1, R1; L2, R2 | I J K L; Tab, C, V, Escape; 1, 2; 3, 4 | read and reported; the viewer has no use for them yet |
 //!
 //! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
-//! every other control is the viewer's, in `firmware`.
+//! every other control is the viewer's, in `firmware`. The DE1-SoC's own keys and switches do what the
+//! keyboard's do; [`PanelReport`] has the table.
 //!
-//! # How two sources make one state
+//! # How several sources make one state
 //!
-//! Pad and keyboard are kept apart and merged: buttons are held if either holds them, sticks add up
+//! Pad, keyboard and panel are kept apart and merged: buttons are held if any holds them, sticks add up
 //! to at most ±1, and the **tilt belongs to the source that moved last**. A pad moves by more than
-//! the dead zone in any axis of its accelerometer; a keyboard moves by an arrow or R. Arrow keys
+//! the dead zone in any axis of its accelerometer; a keyboard or the panel moves by an arrow or R. Arrow keys
 //! turn on from the tilt that is shown. [`Controls::disconnect`] lets go of one source's buttons and
 //! sticks, and leaves the tilt where it is.
 #![no_std]
@@ -61,6 +63,7 @@ mod keyboard_state;
 mod keymap;
 mod low_pass;
 mod pad_state;
+mod panel;
 mod report;
 mod report_error;
 pub mod serial;
@@ -79,6 +82,7 @@ pub use key_axes::KeyAxis;
 pub use keyboard::KeyboardReport;
 pub use keymap::{KeyAction, key_action};
 pub use low_pass::LowPass;
+pub use panel::PanelReport;
 pub use report::Report;
 pub use report_error::ReportError;
 pub use source::Source;

@@ -12,6 +12,9 @@ pub enum Report<'a> {
     DualShock3(&'a [u8]),
     /// A boot keyboard's input report, 8 bytes.
     Keyboard(&'a [u8]),
+    /// What a board's own keys and switches are, 3 bytes ([`PanelReport`](crate::PanelReport)). No serial
+    /// frame carries it.
+    Panel(&'a [u8]),
     /// A source has gone.
     Disconnected(Source),
 }

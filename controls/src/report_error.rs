@@ -24,6 +24,11 @@ pub enum ReportError {
         /// Its length in bytes.
         found: usize,
     },
+    /// A panel's report is not 3 bytes long.
+    PanelLength {
+        /// Its length in bytes.
+        found: usize,
+    },
     /// A "source disconnected" frame does not carry exactly one byte.
     DisconnectedLength {
         /// How many bytes it carries.
@@ -62,12 +67,18 @@ impl fmt::Display for ReportError {
                 formatter,
                 "keyboard report is {found} bytes long, not 8: set the boot protocol (SET_PROTOCOL 0)"
             ),
+            Self::PanelLength { found } => {
+                write!(formatter, "panel report is {found} bytes long, not 3: send keys, then switches low and high")
+            }
             Self::DisconnectedLength { found } => write!(
                 formatter,
                 "\"source disconnected\" frame carries {found} bytes, not 1: send the source's byte alone"
             ),
             Self::UnknownSource { found } => {
-                write!(formatter, "source {found:#04x} does not exist: send 0x01 (DualShock 3) or 0x02 (keyboard)")
+                write!(
+                    formatter,
+                    "source {found:#04x} does not exist: send 0x01 (DualShock 3), 0x02 (keyboard) or 0x03 (panel)"
+                )
             }
             Self::UnknownKind { found } => write!(
                 formatter,
@@ -91,6 +102,7 @@ mod tests {
             (ReportError::DualShock3Id { found: 0xF2 }, "0xf2"),
             (ReportError::DualShock3NoData, "0xff"),
             (ReportError::KeyboardLength { found: 3 }, "3 bytes"),
+            (ReportError::PanelLength { found: 4 }, "4 bytes"),
             (ReportError::DisconnectedLength { found: 0 }, "0 bytes"),
             (ReportError::UnknownSource { found: 9 }, "0x09"),
             (ReportError::UnknownKind { found: 0x40 }, "0x40"),

@@ -10,6 +10,8 @@ pub enum Source {
     DualShock3 = 0x01,
     /// A USB keyboard in its boot protocol.
     Keyboard = 0x02,
+    /// A board's own keys and switches.
+    Panel = 0x03,
 }
 
 impl Source {
@@ -19,6 +21,7 @@ impl Source {
         match byte {
             0x01 => Some(Self::DualShock3),
             0x02 => Some(Self::Keyboard),
+            0x03 => Some(Self::Panel),
             _ => None,
         }
     }

@@ -304,7 +304,7 @@ fn frames_of_a_serial_line_do_the_same_as_reports() {
         (0x02, &[0; 9], ReportError::KeyboardLength { found: 9 }),
         (0x03, &[], ReportError::DisconnectedLength { found: 0 }),
         (0x03, &[1, 2], ReportError::DisconnectedLength { found: 2 }),
-        (0x03, &[3], ReportError::UnknownSource { found: 3 }),
+        (0x03, &[4], ReportError::UnknownSource { found: 4 }),
     ];
     for (kind, payload, error) in refused {
         assert_eq!(controls.accept_frame(kind, payload), Err(error));

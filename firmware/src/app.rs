@@ -173,6 +173,11 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         &mut self.board
     }
 
+    /// Returns the board and the renderer, for what the application does not do.
+    pub fn parts(&mut self) -> (&mut B, &mut Renderer<B::Port, W>) {
+        (&mut self.board, &mut self.renderer)
+    }
+
     fn poll_link(&mut self) {
         let mut bytes = [0; 64];
         loop {
@@ -219,7 +224,8 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
 
     fn recover(&mut self, error: RenderError) {
         let _ = writeln!(self.board.console(), "renderer: {error}");
-        if let Err(error) = self.renderer.reset() {
+        self.board.show_fault();
+        if let Err(error) = self.renderer.restart() {
             let _ = writeln!(self.board.console(), "renderer: {error}");
         }
     }

@@ -44,6 +44,9 @@ pub trait Board {
     /// Shows a sign of life; called once a frame.
     fn heartbeat(&mut self, frame: u32);
 
+    /// Shows that something went wrong; the console says what.
+    fn show_fault(&mut self) {}
+
     /// Sleeps until something may have happened.
     fn sleep(&mut self);
 }

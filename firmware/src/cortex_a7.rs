@@ -2,11 +2,11 @@
 
 use crate::armv7a::exceptions::Hooks;
 use crate::armv7a::mmu;
-use crate::armv7a::start::{ACTLR_SMP, take_vectors};
+use crate::armv7a::start::{ACTLR_SMP, take_reports};
 use crate::armv7a::translation_table::TranslationTable;
 use cortex_ar::register::Actlr;
 
-/// Sets vectors, fault reports, MMU and caches up, in this order. Interrupts stay masked.
+/// Sets fault reports, MMU and caches up, in this order. Interrupts stay masked.
 ///
 /// # Safety
 /// - Called once, first of all, on core 0 as `_start` left it.
@@ -15,8 +15,7 @@ use cortex_ar::register::Actlr;
 /// # Panics
 /// When `table` maps the stack guard of memory.x: the two must agree.
 pub unsafe fn bring_up(table: &'static TranslationTable, hooks: Hooks) {
-    // SAFETY: the caller calls first of all on core 0.
-    unsafe { take_vectors(table, hooks) };
+    take_reports(table, hooks);
     // SAFETY: the MMU and the caches are off, as the bit's change wants it (ARM DDI 0464, §4.3.31).
     unsafe { Actlr::write(Actlr(Actlr::read().0 | ACTLR_SMP)) };
     // SAFETY: `_start` emptied the caches and turned them off; the caller vouches for the table,

@@ -66,6 +66,8 @@ impl Intake {
         match report {
             Report::DualShock3(bytes) => self.tally.pad.add(bytes),
             Report::Keyboard(bytes) => self.tally.keyboard.add(bytes),
+            // A level that is sampled, not a stream of reports.
+            Report::Panel(_) => {}
             _ => self.tally.disconnected = self.tally.disconnected.wrapping_add(1),
         }
         Ok(())

@@ -14,9 +14,9 @@
 //! | `cortex_a7` | the Cortex-A7's start |
 //! | [`vexpress_a9`] | QEMU's vexpress-a9: keyboard, display, log |
 //! | [`raspi2b`] | QEMU's raspi2b: timer, interrupts, display, USB |
-//! | [`de1_soc`] | the DE1-SoC: its addresses and its serial console |
+//! | [`de1_soc`] | the DE1-SoC: its start, the way to its FPGA, its console, keys and lights |
 //! | [`software_fpga`] | the FPGA's stand-in on a board that has none |
-//! | [`pl011`] | serial lines on a PL011 |
+//! | [`serial`], [`pl011`] | serial lines, and a UART for them |
 //! | `usb` | keyboards and pads on a DWC2 host controller |
 //! | [`ps2`] | PS/2 scan codes to USB keyboard reports |
 //! | [`mmio`] | typed access to memory-mapped registers |
@@ -47,6 +47,7 @@ pub mod pl011;
 pub mod ps2;
 pub mod raspi2b;
 pub mod scene;
+pub mod serial;
 pub mod software_fpga;
 #[cfg(all(target_arch = "arm", feature = "usb"))]
 pub mod usb;

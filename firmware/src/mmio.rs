@@ -1,10 +1,15 @@
 //! Typed access to memory-mapped registers.
 //!
-//! A device is an enum of register offsets and a [`Registers`] of it. Pointers are held, never
+//! A device is an enum of register offsets and a [`Registers`] of it. Addresses are held, never
 //! references: a reference to a register would let the compiler read it when it likes.
+//!
+//! A driver that is generic over the [`Bus`] also runs on a PC, against a model of its device that
+//! keeps a journal.
 
 use core::marker::PhantomData;
-use core::ptr::NonNull;
+
+#[cfg(test)]
+pub(crate) mod mock;
 
 /// Names the 32-bit registers of one kind of device.
 pub trait Register: Copy {
@@ -12,25 +17,59 @@ pub trait Register: Copy {
     fn offset(self) -> usize;
 }
 
+/// What carries a register access.
+pub trait Bus: Clone {
+    /// Reads the 32-bit register at `address`, once.
+    fn read(&self, address: usize) -> u32;
+
+    /// Writes the 32-bit register at `address`, once.
+    fn write(&self, address: usize, value: u32);
+
+    /// Returns when the writes before have reached their devices: two devices see them in no order else.
+    fn settle(&self);
+}
+
+/// The processor's own bus. Only [`Registers::at`] makes one, for its device.
+#[derive(Clone, Copy)]
+pub struct Mmio(());
+
+impl Bus for Mmio {
+    #[inline(always)]
+    fn read(&self, address: usize) -> u32 {
+        // SAFETY: `Registers::at`'s caller vouched for the device.
+        unsafe { core::ptr::with_exposed_provenance::<u32>(address).read_volatile() }
+    }
+
+    #[inline(always)]
+    fn write(&self, address: usize, value: u32) {
+        // SAFETY: as in `read`.
+        unsafe { core::ptr::with_exposed_provenance_mut::<u32>(address).write_volatile(value) }
+    }
+
+    #[inline(always)]
+    fn settle(&self) {
+        #[cfg(target_arch = "arm")]
+        cortex_ar::asm::dsb();
+    }
+}
+
 /// The registers of one device, all of them 32 bits wide.
 ///
 /// Copies name the same device. Which copy touches which register is settled by the driver that
 /// makes them; each says so.
-pub struct Registers<R> {
-    base: NonNull<u32>,
-    kind: PhantomData<R>,
+pub struct Registers<R, B = Mmio> {
+    base: usize,
+    bus: B,
+    kind: PhantomData<fn(R)>,
 }
 
-impl<R> Clone for Registers<R> {
+impl<R, B: Clone> Clone for Registers<R, B> {
     fn clone(&self) -> Self {
-        *self
+        Self { base: self.base, bus: self.bus.clone(), kind: PhantomData }
     }
 }
 
-impl<R> Copy for Registers<R> {}
-
-// SAFETY: the value is an address; a register access carries no thread's state.
-unsafe impl<R> Send for Registers<R> {}
+impl<R, B: Copy> Copy for Registers<R, B> {}
 
 impl<R: Register> Registers<R> {
     /// Returns the registers of the device at `address`.
@@ -44,41 +83,60 @@ impl<R: Register> Registers<R> {
     /// When `address` is zero or no multiple of 4 (at compile time, where it is a constant).
     #[must_use]
     pub const unsafe fn at(address: usize) -> Self {
+        Self::on(Mmio(()), address)
+    }
+}
+
+impl<R: Register, B: Bus> Registers<R, B> {
+    /// Returns the registers of the device that is at `address` of a bus.
+    ///
+    /// # Panics
+    /// As [`at`](Registers::at).
+    #[must_use]
+    pub const fn on(bus: B, address: usize) -> Self {
+        assert!(address != 0, "no device answers at address 0");
         assert!(address.is_multiple_of(4), "a register block starts at a multiple of 4");
-        let base = NonNull::new(core::ptr::with_exposed_provenance_mut(address));
-        Self { base: base.expect("no device answers at address 0"), kind: PhantomData }
+        Self { base: address, bus, kind: PhantomData }
     }
 
     /// Reads a register.
-    pub fn read(self, register: R) -> u32 {
+    #[inline(always)]
+    pub fn read(&self, register: R) -> u32 {
         self.read_at(register, 0)
     }
 
     /// Writes a register.
-    pub fn write(self, register: R, value: u32) {
+    #[inline(always)]
+    pub fn write(&self, register: R, value: u32) {
         self.write_at(register, 0, value);
     }
 
     /// Reads word `index` of an array of registers that begins at `first`.
-    pub fn read_at(self, first: R, index: usize) -> u32 {
-        // SAFETY: `at`'s caller vouched for the device; `cell` stays inside it.
-        unsafe { self.cell(first, index).read_volatile() }
+    #[inline(always)]
+    pub fn read_at(&self, first: R, index: usize) -> u32 {
+        self.bus.read(self.address(first, index))
     }
 
     /// Writes word `index` of an array of registers that begins at `first`.
-    pub fn write_at(self, first: R, index: usize, value: u32) {
-        // SAFETY: as in `read_at`.
-        unsafe { self.cell(first, index).write_volatile(value) }
+    #[inline(always)]
+    pub fn write_at(&self, first: R, index: usize, value: u32) {
+        self.bus.write(self.address(first, index), value);
     }
 
     /// Writes a register with some bits set and some cleared; the others keep their value.
     /// Read and write are two accesses: an interrupt handler must not change it in between.
-    pub fn change(self, register: R, clear: u32, set: u32) {
+    pub fn change(&self, register: R, clear: u32, set: u32) {
         self.write(register, (self.read(register) & !clear) | set);
     }
 
-    fn cell(self, first: R, index: usize) -> *mut u32 {
-        self.base.as_ptr().wrapping_byte_add(first.offset() + 4 * index)
+    /// Returns when the writes before, to this device and all others, have arrived.
+    pub fn settle(&self) {
+        self.bus.settle();
+    }
+
+    #[inline(always)]
+    fn address(&self, first: R, index: usize) -> usize {
+        self.base + first.offset() + 4 * index
     }
 }
 

@@ -52,8 +52,8 @@ impl<P: Port + ?Sized> Port for &mut P {
 
 /// How the driver waits for the device.
 pub trait Wait {
-    /// Whether the device's interrupt reaches the processor. If so the driver enables the
-    /// low-water and fence interrupts, and a wait may end early.
+    /// Whether the device's interrupt reaches the processor. If so the driver enables all four causes
+    /// (low water, swap, fence, error), and a wait may end early.
     const INTERRUPT: bool;
 
     /// Waits until the device raises its interrupt, or `micros` microseconds have passed, and

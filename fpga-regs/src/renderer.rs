@@ -79,12 +79,21 @@ impl<P: Port, W: Wait> Renderer<P, W> {
     /// [`WrongVersion`](RenderError::WrongVersion), [`WrongScreen`](RenderError::WrongScreen),
     /// [`WrongCapabilities`](RenderError::WrongCapabilities) or
     /// [`ResetStuck`](RenderError::ResetStuck).
-    pub fn new(mut port: P, wait: W, timeouts: Timeouts) -> Result<Self, RenderError> {
-        port.configured()?;
-        let capabilities = identify(&mut port)?;
+    pub fn new(port: P, wait: W, timeouts: Timeouts) -> Result<Self, RenderError> {
+        let capabilities = Capabilities::default();
         let mut renderer = Self { port, wait, timeouts, capabilities, known_free: 0, next_tag: 1, words_pushed: 0 };
-        renderer.reset()?;
+        renderer.restart()?;
         Ok(renderer)
+    }
+
+    /// Checks the device anew, resets and enables it: after its FPGA was configured again, say.
+    ///
+    /// # Errors
+    /// As [`new`](Renderer::new).
+    pub fn restart(&mut self) -> Result<(), RenderError> {
+        self.port.configured()?;
+        self.capabilities = identify(&mut self.port)?;
+        self.reset()
     }
 
     /// Resets the device, forgetting all that it had not yet drawn, and enables it again.
@@ -105,9 +114,13 @@ impl<P: Port, W: Wait> Renderer<P, W> {
             waited_us += self.pause();
         }
         self.port.write(Register::LowWater, self.low_water());
-        let interrupt = W::INTERRUPT && self.capabilities.interrupt();
-        let control =
-            Control::default().with_enable(true).with_low_water_interrupt(interrupt).with_fence_interrupt(interrupt);
+        let interrupt = self.has_interrupt();
+        let control = Control::default()
+            .with_enable(true)
+            .with_low_water_interrupt(interrupt)
+            .with_swap_interrupt(interrupt)
+            .with_fence_interrupt(interrupt)
+            .with_error_interrupt(interrupt);
         self.port.write(Register::Control, control.0);
         Ok(())
     }
@@ -174,7 +187,7 @@ impl<P: Port, W: Wait> Renderer<P, W> {
     pub fn wait_fence(&mut self, tag: u32) -> Result<(), RenderError> {
         let mut waited_us = 0;
         loop {
-            self.clear_interrupt(Interrupts::default().with_fence(true));
+            self.clear_interrupts();
             let found = self.port.read(Register::Fence);
             // Tags grow and wrap: a later one has passed this one too.
             if found.wrapping_sub(tag) as i32 >= 0 {
@@ -237,8 +250,7 @@ impl<P: Port, W: Wait> Renderer<P, W> {
         let enough = pending.min(depth - self.low_water() as usize);
         let (mut waited_us, mut most_free) = (0, 0);
         loop {
-            // Cleared before the look, so that an interrupt which comes after it is not lost.
-            self.clear_interrupt(Interrupts::default().with_low_water(true));
+            self.clear_interrupts();
             let status = Status(self.port.read(Register::Status));
             self.check_status(status)?;
             let free = usize::from(status.fifo_free());
@@ -256,9 +268,14 @@ impl<P: Port, W: Wait> Renderer<P, W> {
         }
     }
 
-    fn clear_interrupt(&mut self, interrupts: Interrupts) {
+    /// Clears the interrupt status before a look at the registers that the wait is about, so that an
+    /// interrupt which comes after the look is not lost.
+    ///
+    /// All of it: the line is a level, and one bit that nobody clears would end every later wait at once.
+    fn clear_interrupts(&mut self) {
         if self.has_interrupt() {
-            self.port.write(Register::Interrupts, interrupts.0);
+            let all = Interrupts::default().with_low_water(true).with_swap(true).with_fence(true).with_error(true);
+            self.port.write(Register::Interrupts, all.0);
         }
     }
 

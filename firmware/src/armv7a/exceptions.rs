@@ -6,8 +6,11 @@
 //! ```text
 //! data abort: write to 0x50000000: nothing is mapped there
 //!   instruction at 0x600012a4, DFSR 0x00000805
+//!   r0   50000000  r1   00000001  r2   60013b44  r3   00000000
+//!   …
 //! ```
 
+use super::fault_frame::FaultFrame;
 use super::fault_status::FaultStatus;
 use core::cell::Cell;
 use core::fmt::{self, Write};
@@ -43,12 +46,16 @@ impl Write for Console {
     }
 }
 
-/// Writes a report and stops.
-fn report(text: fmt::Arguments<'_>) -> ! {
+/// Writes a report, with the registers of the program where it was interrupted, and stops.
+fn report(text: fmt::Arguments<'_>, frame: Option<&FaultFrame>) -> ! {
     cortex_ar::interrupt::disable();
     let Some(hooks) = critical_section::with(|section| HOOKS.borrow(section).take()) else { park() };
     // A console that fails has nobody to be told.
-    let _ = writeln!(Console(hooks.write), "\n{text}");
+    let mut console = Console(hooks.write);
+    let _ = writeln!(console, "\n{text}");
+    if let Some(frame) = frame {
+        let _ = write!(console, "{frame}");
+    }
     (hooks.stop)()
 }
 
@@ -60,34 +67,69 @@ pub fn park() -> ! {
     }
 }
 
-#[exception(DataAbort)]
-fn data_abort(instruction: usize) -> ! {
-    let status = FaultStatus(Dfsr::read().raw_value());
+extern "C" fn data_abort(frame: &FaultFrame) -> ! {
+    let (status, instruction) = (FaultStatus(Dfsr::read().raw_value()), frame.pc);
     let (access, cause) = (if status.is_write() { "write to" } else { "read from" }, status.cause());
     let raw = status.0;
     if status.has_address() {
         let address = Dfar::read().0;
-        report(format_args!(
-            "data abort: {access} {address:#010x}: {cause}\n  instruction at {instruction:#010x}, DFSR {raw:#010x}"
-        ))
+        report(
+            format_args!(
+                "data abort: {access} {address:#010x}: {cause}\n  instruction at {instruction:#010x}, DFSR {raw:#010x}"
+            ),
+            Some(frame),
+        )
     } else {
-        report(format_args!("data abort: {cause}\n  noticed at {instruction:#010x}, DFSR {raw:#010x}"))
+        report(format_args!("data abort: {cause}\n  noticed at {instruction:#010x}, DFSR {raw:#010x}"), Some(frame))
     }
 }
 
-#[exception(PrefetchAbort)]
-fn prefetch_abort(instruction: usize) -> ! {
+extern "C" fn prefetch_abort(frame: &FaultFrame) -> ! {
     let (address, raw) = (Ifar::read().0, Ifsr::read().raw_value());
-    let cause = FaultStatus(raw).cause();
-    report(format_args!(
-        "prefetch abort: fetch from {address:#010x}: {cause}\n  instruction at {instruction:#010x}, IFSR {raw:#010x}"
-    ))
+    let (cause, instruction) = (FaultStatus(raw).cause(), frame.pc);
+    report(
+        format_args!(
+            "prefetch abort: fetch from {address:#010x}: {cause}\n  instruction at {instruction:#010x}, IFSR {raw:#010x}"
+        ),
+        Some(frame),
+    )
 }
 
-#[exception(Undefined)]
-fn undefined(instruction: usize) -> ! {
-    report(format_args!("undefined instruction at {instruction:#010x}"))
+extern "C" fn undefined(frame: &FaultFrame) -> ! {
+    report(format_args!("undefined instruction at {:#010x}", frame.pc), Some(frame))
 }
+
+// The entries from the vectors, in place of cortex-a-rt's, which do not hand on the registers. They keep them in a
+// `FaultFrame` on the stack of the exception's mode. The program runs in system mode alone.
+core::arch::global_asm!(
+    r#"
+    .macro fault_entry name, behind, handler
+    .section .text.\name, "ax"
+    .global \name
+    .type \name, %function
+    \name:
+        sub     lr, lr, #\behind            // where it happened
+        sub     sp, sp, #72                 // 17 words, on a multiple of 8
+        stmia   sp, {{r0-r12}}
+        add     r0, sp, #52
+        stmia   r0, {{sp, lr}}^               // system mode's
+        nop
+        mrs     r1, spsr
+        str     lr, [sp, #60]
+        str     r1, [sp, #64]
+        mov     r0, sp
+        bl      \handler
+    .size \name, . - \name
+    .endm
+
+    fault_entry _asm_undefined_handler, 4, {undefined}
+    fault_entry _asm_prefetch_abort_handler, 4, {prefetch_abort}
+    fault_entry _asm_data_abort_handler, 8, {data_abort}
+    "#,
+    undefined = sym undefined,
+    prefetch_abort = sym prefetch_abort,
+    data_abort = sym data_abort,
+);
 
 /// Comes back: a semihosting call (SVC 0x123456) ends here when no emulator takes it.
 #[exception(SupervisorCall)]
@@ -96,9 +138,10 @@ fn supervisor_call(_number: u32) {}
 #[panic_handler]
 fn panic(info: &PanicInfo<'_>) -> ! {
     match info.location() {
-        Some(place) => {
-            report(format_args!("panic at {}:{}:{}: {}", place.file(), place.line(), place.column(), info.message()))
-        }
-        None => report(format_args!("panic: {}", info.message())),
+        Some(place) => report(
+            format_args!("panic at {}:{}:{}: {}", place.file(), place.line(), place.column(), info.message()),
+            None,
+        ),
+        None => report(format_args!("panic: {}", info.message()), None),
     }
 }

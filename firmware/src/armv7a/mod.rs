@@ -6,7 +6,7 @@
 //! | `mmu`, `translation_table` | the flat 1 MiB section table, and turning it on |
 //! | `cache`, `cache_geometry` | L1 maintenance |
 //! | `sleep` | sleeping until an interrupt |
-//! | `exceptions`, `fault_status` | fault and panic reports |
+//! | `exceptions`, `fault_status`, `fault_frame` | fault and panic reports |
 //! | `semihosting` | leaving an emulator with an exit code |
 
 #[cfg(target_arch = "arm")]
@@ -14,6 +14,7 @@ pub mod cache;
 pub mod cache_geometry;
 #[cfg(target_arch = "arm")]
 pub mod exceptions;
+pub mod fault_frame;
 #[cfg(all(target_arch = "arm", feature = "fault-injection"))]
 pub mod fault_injection;
 pub mod fault_status;

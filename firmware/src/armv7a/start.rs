@@ -4,19 +4,22 @@
 //! cortex-a-rt's, because a boot loader (U-Boot's `go`) hands over with MMU and caches on and the
 //! image still in them, and because all cores may come this way:
 //!
+//! 0. keep what U-Boot's `go` passes ([`arguments_of_go`]);
 //! 1. mask interrupts; park every core but the first in `wfi`;
 //! 2. write the core's caches back, level by level, by set and way (ARM DDI 0406, §B2.2.7), then
 //!    the PL310, where the board has one, and turn that off;
-//! 3. turn MMU, caches, branch prediction and high vectors off, and empty TLB, instruction cache
-//!    and predictor;
-//! 4. go on in cortex-a-rt: stacks, floating point, `.bss`, `.data`, `kmain`.
+//! 3. turn MMU, data cache and high vectors off, empty TLB, instruction cache and predictor, and go on with
+//!    the last two: without, every instruction of step 5 would be fetched from the SDRAM;
+//! 4. take an abort that the boot loader caused and left pending, and forget it: nothing has been
+//!    done yet that it could tell about;
+//! 5. go on in cortex-a-rt: stacks, floating point, `.bss`, `.data`, `kmain`.
 //!
-//! No store to memory happens before step 4. `kmain` calls `bring_up` of its core
+//! No store to memory happens before step 5. `kmain` calls `bring_up` of its core
 //! ([`cortex_a9`](crate::cortex_a9::start), [`cortex_a7`](crate::cortex_a7)) first of all.
 
 use super::exceptions::{self, Hooks};
 use super::translation_table::TranslationTable;
-use cortex_ar::register::{SysReg, SysRegWrite};
+use cortex_ar::register::{SysReg, SysRegRead};
 
 core::arch::global_asm!(
     r#"
@@ -24,6 +27,8 @@ core::arch::global_asm!(
     .global _start
     .type _start, %function
     _start:
+        mcr     p15, 0, r0, c13, c0, 2      // TPIDRURW: argc
+        mcr     p15, 0, r1, c13, c0, 4      // TPIDRPRW: argv
         cpsid   if
         mrc     p15, 0, r0, c0, c0, 5       // MPIDR: which core
         ands    r0, r0, #3
@@ -99,46 +104,73 @@ core::arch::global_asm!(
         mcr     p15, 0, r0, c7, c5, 6       // BPIALL
         dsb
         isb
+        mrc     p15, 0, r0, c1, c0, 0       // SCTLR
+        orr     r0, r0, #0x1800             // I, Z
+        mcr     p15, 0, r0, c1, c0, 0
+        isb
+
+        ldr     r0, =_pending_abort_vectors
+        mcr     p15, 0, r0, c12, c0, 0      // VBAR
+        isb
+        cpsie   a
+        dsb
+        isb
+        cpsid   a
+        ldr     r0, =_vector_table
+        mcr     p15, 0, r0, c12, c0, 0
+        isb
         b       _default_start
         .ltorg
     .size _start, . - _start
+
+        .balign 32
+    _pending_abort_vectors:
+        b       .
+        b       .
+        b       .
+        b       .
+        subs    pc, lr, #8                  // a data abort: go on where it came
+        b       .
+        b       .
+        b       .
     "#
 );
 
 unsafe extern "C" {
-    /// The vectors, first in the image, aligned to 32 bytes (cortex-a-rt).
-    static _vector_table: u8;
     /// The MiB below the stacks that must not be mapped (memory.x).
     static _stack_guard: u8;
 }
 
-/// VBAR: where the exception vectors are. cortex-a-rt leaves it at its reset value.
-struct VectorBase;
+/// A thread-id register, which keeps a word of the boot loader's: nothing here has threads.
+struct ThreadId<const NUMBER: u32>;
 
-impl SysReg for VectorBase {
+impl<const NUMBER: u32> SysReg for ThreadId<NUMBER> {
     const CP: u32 = 15;
-    const CRN: u32 = 12;
+    const CRN: u32 = 13;
     const OP1: u32 = 0;
     const CRM: u32 = 0;
-    const OP2: u32 = 0;
+    const OP2: u32 = NUMBER;
 }
 
-impl SysRegWrite for VectorBase {}
+impl<const NUMBER: u32> SysRegRead for ThreadId<NUMBER> {}
+
+/// Returns r0 and r1 as they were at the first instruction: from U-Boot's `go`, how many words it
+/// was given and where a list of pointers to them lies. From elsewhere, anything.
+#[must_use]
+pub fn arguments_of_go() -> [u32; 2] {
+    // SAFETY: reads of two registers that only `_start` writes.
+    unsafe { [ThreadId::<2>::read_raw(), ThreadId::<4>::read_raw()] }
+}
 
 /// ACTLR, on the Cortex-A7 and the Cortex-A9: the core takes part in coherency. Without, it caches no
 /// shareable memory.
 pub(crate) const ACTLR_SMP: u32 = 1 << 6;
 
-/// Sets vectors and fault reports up.
-///
-/// # Safety
-/// Called on core 0 as `_start` left it, with interrupts masked.
+/// Sets fault reports up.
 ///
 /// # Panics
 /// When `table` maps the stack guard of memory.x: the two must agree.
-pub(crate) unsafe fn take_vectors(table: &TranslationTable, hooks: Hooks) {
-    // SAFETY: the symbol marks the vector table, which stays there.
-    unsafe { VectorBase::write_raw((&raw const _vector_table).addr() as u32) };
+pub(crate) fn take_reports(table: &TranslationTable, hooks: Hooks) {
     exceptions::install(hooks);
     let guard = (&raw const _stack_guard).addr() as u32;
     assert!(table.is_hole(guard), "the stack guard at {guard:#010x} is mapped");

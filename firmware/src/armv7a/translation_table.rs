@@ -6,6 +6,7 @@
 //! | memory | TEX C B | S | APX AP | XN |
 //! | --- | --- | --- | --- | --- |
 //! | code: write-back, read only, executable | 001 1 1 | 1 | 1 01 | 0 |
+//! | constants: the same, read only | 001 1 1 | 1 | 1 01 | 1 |
 //! | data: write-back, write-allocate | 001 1 1 | 1 | 0 01 | 1 |
 //! | uncached: Normal, non-cacheable | 001 0 0 | 1 | 0 01 | 1 |
 //! | device: shareable Device | 000 0 1 | 0 | 0 01 | 1 |
@@ -22,6 +23,8 @@ pub enum Memory {
     Fault,
     /// Instructions and constants.
     Code,
+    /// What somebody else left to be read.
+    Constants,
     /// Variables and stacks.
     Data,
     /// RAM that a device reads, too: stores may be merged, but go past the caches.
@@ -92,6 +95,7 @@ const fn descriptor(base: u32, memory: Memory) -> u32 {
     let attributes = match memory {
         Memory::Fault => return 0,
         Memory::Code => WRITE_BACK | READ_ONLY,
+        Memory::Constants => WRITE_BACK | READ_ONLY | EXECUTE_NEVER,
         Memory::Data => WRITE_BACK | EXECUTE_NEVER,
         Memory::Uncached => NORMAL | SHAREABLE | EXECUTE_NEVER,
         Memory::Device => BUFFERABLE | EXECUTE_NEVER,
@@ -114,6 +118,7 @@ mod tests {
     #[test]
     fn descriptors_have_the_manuals_bits() {
         assert_eq!(descriptor(0x6000_0000, Memory::Code), 0x6001_940E);
+        assert_eq!(descriptor(0x0800_0000, Memory::Constants), 0x0801_941E);
         assert_eq!(descriptor(0x6100_0000, Memory::Data), 0x6101_141E);
         assert_eq!(descriptor(0x6800_0000, Memory::Uncached), 0x6801_1412);
         assert_eq!(descriptor(0xFFF0_0000, Memory::Device), 0xFFF0_0416);

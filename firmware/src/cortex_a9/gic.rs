@@ -19,6 +19,7 @@ enum DistributorOffset {
     ClearPending = 0x280,
     Priority = 0x400,
     Targets = 0x800,
+    Configuration = 0xC00,
 }
 
 impl Register for DistributorOffset {
@@ -66,8 +67,8 @@ impl Distributor {
         Self { registers: unsafe { Registers::at(address) } }
     }
 
-    /// Disables and clears all interrupts, sends them to core 0 at one priority, and turns the
-    /// distributor on.
+    /// Disables and clears all interrupts, sends them to core 0 at one priority, takes those from
+    /// devices by their level, and turns the distributor on.
     pub fn configure(&mut self) {
         self.registers.write(DistributorOffset::Control, 0);
         let words = (self.interrupts() / 32) as usize;
@@ -81,6 +82,10 @@ impl Distributor {
             self.registers.write_at(DistributorOffset::Priority, word, 0xA0A0_A0A0);
             self.registers.write_at(DistributorOffset::Targets, word, 0x0101_0101);
         }
+        // Two bits for each interrupt. The first 32 are not devices' and have their own.
+        for word in 2..words * 2 {
+            self.registers.write_at(DistributorOffset::Configuration, word, 0);
+        }
         self.registers.write(DistributorOffset::Control, 1);
     }
 
@@ -88,6 +93,12 @@ impl Distributor {
     pub fn enable(&mut self, interrupt: InterruptId) {
         let (word, bit) = (usize::from(interrupt.0 / 32), 1 << (interrupt.0 % 32));
         self.registers.write_at(DistributorOffset::SetEnable, word, bit);
+    }
+
+    /// Keeps an interrupt back.
+    pub fn disable(&mut self, interrupt: InterruptId) {
+        let (word, bit) = (usize::from(interrupt.0 / 32), 1 << (interrupt.0 % 32));
+        self.registers.write_at(DistributorOffset::ClearEnable, word, bit);
     }
 
     /// Returns how many interrupts the controller has, a multiple of 32.
@@ -157,10 +168,15 @@ mod tests {
         memory[1] = 2; // 96 interrupts
         // SAFETY: plain memory stands in for the device and outlives the driver.
         let mut distributor = unsafe { Distributor::at((&raw mut memory).expose_provenance()) };
+        memory[0xC04 / 4] = 0x5555_5555;
+        memory[0xC14 / 4] = 0xAAAA_AAAA;
         distributor.configure();
         distributor.enable(InterruptId(44));
+        distributor.disable(InterruptId(72));
         assert_eq!(distributor.interrupts(), 96);
         assert_eq!(memory[0x104 / 4], 1 << 12);
+        assert_eq!(memory[0x188 / 4], 1 << 8);
+        assert_eq!((memory[0xC04 / 4], memory[0xC14 / 4]), (0x5555_5555, 0), "devices' interrupts are levels");
         assert_eq!(memory[0x45C / 4], 0xA0A0_A0A0, "the last priority");
         assert_eq!(memory[0x460 / 4], 0, "and no further one");
         assert_eq!(memory[0x85C / 4], 0x0101_0101);

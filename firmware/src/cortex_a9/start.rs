@@ -4,7 +4,7 @@ use super::Cluster;
 use super::l2c310::{Config, L2Error, L2c310};
 use crate::armv7a::exceptions::Hooks;
 use crate::armv7a::mmu;
-use crate::armv7a::start::{ACTLR_SMP, take_vectors};
+use crate::armv7a::start::{ACTLR_SMP, take_reports};
 use crate::armv7a::translation_table::TranslationTable;
 use crate::mmio::{Register, Registers};
 use cortex_ar::register::Actlr;
@@ -32,7 +32,7 @@ pub struct Report {
     pub l2: Result<(), L2Error>,
 }
 
-/// Sets vectors, fault reports, snoop control unit, L2 cache, MMU and L1 caches up, in this order.
+/// Sets fault reports, snoop control unit, L2 cache, MMU and L1 caches up, in this order.
 /// Interrupts stay masked.
 ///
 /// # Safety
@@ -43,8 +43,7 @@ pub struct Report {
 /// # Panics
 /// When `table` maps the stack guard of memory.x: the two must agree.
 pub unsafe fn bring_up(cluster: &Cluster, table: &'static TranslationTable, hooks: Hooks) -> Report {
-    // SAFETY: the caller calls first of all on core 0.
-    unsafe { take_vectors(table, hooks) };
+    take_reports(table, hooks);
     // SAFETY: the caller gives the true address, and only this function touches the unit.
     let snoop_control = unsafe { Registers::at(cluster.snoop_control_unit()) };
     // Four bits for each core.

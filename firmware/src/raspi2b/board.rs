@@ -13,7 +13,8 @@ use super::system_timer::SystemTimer;
 use crate::armv7a::exceptions::Hooks;
 use crate::armv7a::semihosting;
 use crate::cortex_a7;
-use crate::pl011::{Config, Link};
+use crate::pl011::Pl011;
+use crate::serial::{Config, Link};
 use crate::usb::{Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
 use core::cell::Cell;
 use core::fmt::Write;
@@ -36,7 +37,7 @@ pub struct Board {
     /// Text on the mini UART.
     pub console: Console,
     /// Bytes on UART0.
-    pub link: Link,
+    pub link: Link<Pl011>,
     /// 640 × 480 pixels.
     pub display: Framebuffer,
     /// Time since power on, and delays.
@@ -83,7 +84,7 @@ impl Board {
             // First, so that a fault has somewhere to be told.
             let console = Console::new(AUXILIARY, CONSOLE_HERTZ, BAUD);
             let serial = Config { clock_hertz: LINK_HERTZ, baud: BAUD };
-            let (link, link_interrupt) = Link::new(LINK, &serial, (*&raw mut LINK_BYTES).split());
+            let (link, link_interrupt) = Link::new(Pl011::new(LINK, &serial), (*&raw mut LINK_BYTES).split());
             let clock = SystemTimer::at(SYSTEM_TIMER);
             let display = Framebuffer::new(Mailbox::at(MAILBOX, MAILBOX_MESSAGE), GPU_MEMORY..GPU_MEMORY_END)?;
 

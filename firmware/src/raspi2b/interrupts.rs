@@ -4,7 +4,8 @@ use super::interrupt_controller::InterruptController;
 use super::memory_map::{LINK_INTERRUPT, TIMER_INTERRUPT, USB_INTERRUPT};
 use super::system_timer::Ticker;
 use crate::armv7a::sleep::sleep_unless;
-use crate::pl011::LinkInterrupt;
+use crate::pl011::Pl011;
+use crate::serial::LinkInterrupt;
 use crate::usb::Service;
 use core::cell::RefCell;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -15,7 +16,7 @@ use critical_section::Mutex;
 pub(super) struct Sources {
     pub(super) controller: InterruptController,
     pub(super) ticker: Ticker,
-    pub(super) link: LinkInterrupt,
+    pub(super) link: LinkInterrupt<Pl011>,
     pub(super) usb: Service,
 }
 

@@ -12,7 +12,8 @@ use super::system_timer::{HERTZ, SystemTimer};
 use crate::app::{Application, Memory};
 use crate::board::Board;
 use crate::intake::Intake;
-use crate::pl011::Link;
+use crate::pl011::Pl011;
+use crate::serial::Link;
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
 use crate::usb::{Service, tell};
 
@@ -22,7 +23,7 @@ const FRAME_MICROSECONDS: u64 = 16_667;
 /// The board, without its display, which the FPGA's stand-in has.
 pub struct ViewerBoard {
     console: Console,
-    link: Link,
+    link: Link<Pl011>,
     clock: SystemTimer,
     /// When the next frame is due.
     next_frame: u64,

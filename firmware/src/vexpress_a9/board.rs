@@ -15,7 +15,8 @@ use crate::cortex_a9::gic::{Distributor, Interface, InterruptId};
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
 use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::cortex_a9::start;
-use crate::pl011::{Config, Console, Link};
+use crate::pl011::Pl011;
+use crate::serial::{Config, Console, Link};
 use core::cell::Cell;
 use core::fmt::Write;
 use critical_section::Mutex;
@@ -35,9 +36,9 @@ static TAKEN: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 /// The board's drivers. The log has none: `defmt`'s macros reach it from anywhere.
 pub struct Board {
     /// Text on UART0.
-    pub console: Console,
+    pub console: Console<Pl011>,
     /// Bytes on UART1.
-    pub link: Link,
+    pub link: Link<Pl011>,
     /// The PS/2 keyboard.
     pub keyboard: Keyboard,
     /// 640 × 480 pixels.
@@ -83,8 +84,8 @@ impl Board {
             let clock = GlobalTimer::at(CLUSTER.global_timer(), CLUSTER.timer_hertz);
             clock.start();
             log::start();
-            let console = Console::new(CONSOLE, &SERIAL);
-            let (link, link_interrupt) = Link::new(LINK, &SERIAL, (*&raw mut LINK_BYTES).split());
+            let console = Console::new(Pl011::new(CONSOLE, &SERIAL));
+            let (link, link_interrupt) = Link::new(Pl011::new(LINK, &SERIAL), (*&raw mut LINK_BYTES).split());
             let (keyboard, keyboard_interrupt) =
                 Keyboard::new(KEYBOARD, KEYBOARD_HERTZ, (*&raw mut KEYBOARD_BYTES).split());
             let mut timer = PrivateTimer::at(CLUSTER.private_timer(), CLUSTER.timer_hertz);
@@ -129,6 +130,6 @@ pub fn exit(code: u32) -> ! {
 /// Writes to the console whatever state its driver is in.
 fn write_last_words(text: &str) {
     // SAFETY: the program ends; what its driver was writing no longer matters.
-    let mut console = unsafe { Console::steal(CONSOLE) };
+    let mut console = Console::new(unsafe { Pl011::steal(CONSOLE) });
     let _ = console.write_str(text);
 }

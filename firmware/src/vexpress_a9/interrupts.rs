@@ -4,7 +4,8 @@ use super::memory_map::{KEYBOARD_INTERRUPT, LINK_INTERRUPT};
 use super::pl050::KeyboardInterrupt;
 use crate::cortex_a9::gic::{Interface, InterruptId};
 use crate::cortex_a9::private_timer::TimerInterrupt;
-use crate::pl011::LinkInterrupt;
+use crate::pl011::Pl011;
+use crate::serial::LinkInterrupt;
 use core::cell::RefCell;
 use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_a_rt::irq;
@@ -14,7 +15,7 @@ use critical_section::Mutex;
 pub(super) struct Sources {
     pub(super) interface: Interface,
     pub(super) timer: TimerInterrupt,
-    pub(super) link: LinkInterrupt,
+    pub(super) link: LinkInterrupt<Pl011>,
     pub(super) keyboard: KeyboardInterrupt,
 }
 

@@ -2,7 +2,8 @@
 
 use super::memory_map::{CLUSTER, LOG, UART_HERTZ};
 use crate::cortex_a9::global_timer::GlobalTimer;
-use crate::pl011::{Config, Transmitter};
+use crate::pl011::Pl011;
+use crate::serial::{Config, Transmitter};
 use core::cell::{Cell, RefCell};
 use critical_section::{CriticalSection, Mutex, RestoreState};
 use defmt::Encoder;
@@ -12,7 +13,7 @@ use embedded_io::Write;
 struct Logger;
 
 struct State {
-    line: RefCell<Option<Transmitter>>,
+    line: RefCell<Option<Transmitter<Pl011>>>,
     encoder: RefCell<Encoder>,
     /// What to restore when the frame that is open ends; `None` while none is.
     open: Cell<Option<RestoreState>>,
@@ -35,7 +36,8 @@ fn now() -> u64 {
 /// Called once; nothing else drives UART2.
 pub(super) unsafe fn start() {
     // SAFETY: the caller's promise is the same.
-    let line = unsafe { Transmitter::new(LOG, &Config { clock_hertz: UART_HERTZ, baud: 115_200 }) };
+    let uart = unsafe { Pl011::new(LOG, &Config { clock_hertz: UART_HERTZ, baud: 115_200 }) };
+    let line = Transmitter::new(uart);
     critical_section::with(|section| STATE.borrow(section).line.replace(Some(line)));
 }
 

@@ -13,7 +13,8 @@ use crate::board::Board;
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
 use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::intake::Intake;
-use crate::pl011::{Console, Link};
+use crate::pl011::Pl011;
+use crate::serial::{Console, Link};
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
 
 /// What the FPGA's VGA output shows, nearly: 59.94 in a second.
@@ -23,8 +24,8 @@ const FRAMES_A_LOG_LINE: u32 = 60;
 
 /// The board, without its display, which the FPGA's stand-in has.
 pub struct ViewerBoard {
-    console: Console,
-    link: Link,
+    console: Console<Pl011>,
+    link: Link<Pl011>,
     keyboard: Keyboard,
     clock: GlobalTimer,
     timer: PrivateTimer,
@@ -51,14 +52,14 @@ impl Board for ViewerBoard {
     const NAME: &'static str = "vexpress-a9";
     const LACKS: &'static str = "no FPGA here, the software model draws; no USB, the keyboard is PS/2";
     const TICKS_PER_SECOND: u32 = super::memory_map::CLUSTER.timer_hertz;
-    type Console = Console;
+    type Console = Console<Pl011>;
     type Port = ModelPort<Pl111>;
 
     fn ticks(&self) -> u64 {
         self.clock.ticks()
     }
 
-    fn console(&mut self) -> &mut Console {
+    fn console(&mut self) -> &mut Self::Console {
         &mut self.console
     }
 

@@ -1,51 +1,41 @@
-//! The line in both directions, with its receive interrupt.
+//! A line in both directions, with its receive interrupt.
 
-use super::line::{Config, Line, Offset, RECEIVE_INTERRUPTS, ReceivedWord, SerialError};
-use crate::mmio::Registers;
+use super::{ReceivedWord, SerialError, Transmitter, Uart};
 use embedded_io::{ErrorType, Read, ReadReady, Write};
 use heapless::spsc::{Consumer, Producer};
 
 /// A line in both directions. What comes in is queued by its interrupt, so that nothing is lost
 /// while a frame is drawn. When the queue is full, bytes wait in the UART, and QEMU's sender with
 /// them; a real sender's are then lost, and counted.
-pub struct Link {
-    line: Line,
+pub struct Link<U> {
+    uart: U,
+    out: Transmitter<U>,
     received: Consumer<'static, u8>,
 }
 
 /// The link's side in the interrupt handler.
-pub struct LinkInterrupt {
-    line: Line,
+pub struct LinkInterrupt<U> {
+    uart: U,
     queue: Producer<'static, u8>,
     damaged: u32,
 }
 
-impl Link {
-    /// Sets a PL011 up for both directions. Received bytes come through the queue whose two ends
-    /// are given.
-    ///
-    /// # Safety
-    /// A PL011 answers at `address`, and no other driver writes to it. `queue` and `received` are
-    /// two ends of one queue.
+impl<U: Uart> Link<U> {
+    /// Returns the link of a UART that is set up, and the part that the interrupt handler holds.
+    /// Received bytes come through the queue whose two ends are given.
     #[must_use]
-    pub unsafe fn new(
-        address: usize,
-        config: &Config,
-        (queue, received): (Producer<'static, u8>, Consumer<'static, u8>),
-    ) -> (Self, LinkInterrupt) {
-        // SAFETY: the caller's promise is the same.
-        let line = Line::new(unsafe { Registers::at(address) });
-        line.configure(config);
-        line.registers.write(Offset::InterruptMask, RECEIVE_INTERRUPTS);
-        (Self { line, received }, LinkInterrupt { line, queue, damaged: 0 })
+    pub fn new(uart: U, (queue, received): (Producer<'static, u8>, Consumer<'static, u8>)) -> (Self, LinkInterrupt<U>) {
+        uart.listen(true);
+        let link = Self { uart: uart.clone(), out: Transmitter::new(uart.clone()), received };
+        (link, LinkInterrupt { uart, queue, damaged: 0 })
     }
 }
 
-impl ErrorType for Link {
+impl<U> ErrorType for Link<U> {
     type Error = SerialError;
 }
 
-impl Read for Link {
+impl<U: Uart> Read for Link<U> {
     /// Returns what has come in, at once; 0 means nothing yet, not the end.
     fn read(&mut self, buffer: &mut [u8]) -> Result<usize, SerialError> {
         let mut count = 0;
@@ -56,33 +46,33 @@ impl Read for Link {
         }
         if count > 0 {
             // There is room again: undo what the handler did when the queue was full.
-            self.line.registers.write(Offset::InterruptMask, RECEIVE_INTERRUPTS);
+            self.uart.listen(true);
         }
         Ok(count)
     }
 }
 
-impl ReadReady for Link {
+impl<U: Uart> ReadReady for Link<U> {
     fn read_ready(&mut self) -> Result<bool, SerialError> {
         Ok(self.received.ready())
     }
 }
 
-impl Write for Link {
+impl<U: Uart> Write for Link<U> {
     fn write(&mut self, bytes: &[u8]) -> Result<usize, SerialError> {
-        self.line.write(bytes)
+        self.out.write(bytes)
     }
 
     fn flush(&mut self) -> Result<(), SerialError> {
-        self.line.flush()
+        self.out.flush()
     }
 }
 
-impl LinkInterrupt {
+impl<U: Uart> LinkInterrupt<U> {
     /// Takes what has come in. Reading the FIFO empty also drops the interrupt; nothing else does.
     pub fn serve(&mut self) {
         while self.queue.ready() {
-            match self.line.receive() {
+            match self.uart.receive() {
                 None => return,
                 Some(ReceivedWord::Byte(byte)) => {
                     // `ready` said that there is room.
@@ -91,7 +81,7 @@ impl LinkInterrupt {
                 Some(ReceivedWord::Damaged) => self.damaged = self.damaged.saturating_add(1),
             }
         }
-        self.line.registers.write(Offset::InterruptMask, 0);
+        self.uart.listen(false);
     }
 
     /// Returns how many bytes came in broken, or after others were lost.
