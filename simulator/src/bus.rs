@@ -269,12 +269,12 @@ impl Bus {
         match hardware.access(access, address, before, self) {
             Ok((value, cost)) => {
                 self.set_now(before + cost);
-                self.set_interrupt(hardware.interrupt());
                 // Something may be due sooner now.
                 self.set_deadline(self.deadline().min(hardware.next_event(before + cost)));
-                if hardware.interrupt() || hardware.attention() {
+                if hardware.interrupt() != self.interrupt() || hardware.attention() {
                     self.set_deadline(0);
                 }
+                self.set_interrupt(hardware.interrupt());
                 Ok(value)
             }
             Err((block, needed)) => {

@@ -48,6 +48,12 @@ pub trait Cpu {
     /// Goes on at another address.
     fn jump(&mut self, address: u32);
 
+    /// Ends its wait for an event (WFE).
+    fn wake(&mut self);
+
+    /// Returns how many instructions it has run, exceptions taken among them.
+    fn instructions(&self) -> u64;
+
     /// Returns the registers, for a report.
     fn registers(&self) -> Registers;
 

@@ -3,7 +3,7 @@
 mod power_on;
 mod uboot;
 
-use std::sync::{Arc, MutexGuard};
+use std::sync::Arc;
 
 pub use power_on::PowerOn;
 
@@ -167,9 +167,9 @@ impl Machine {
         Ok(self.bus.hardware().fpga.screen())
     }
 
-    /// Returns everything that is not memory: to look at, to press keys, to break.
-    pub fn hardware(&self) -> MutexGuard<'_, Hardware> {
-        self.bus.hardware()
+    /// Lends everything that is not memory: to look at, to press keys, to break.
+    pub fn hardware<R>(&self, work: impl FnOnce(&mut Hardware) -> R) -> R {
+        work(&mut self.bus.hardware())
     }
 
     /// Configures the FPGA from outside, as over JTAG, or takes its power.
@@ -189,9 +189,40 @@ impl Machine {
         self.bus.sdram().load(address, bytes);
     }
 
+    /// Reads memory as a bus master does.
+    ///
+    /// # Errors
+    /// [`Violation`] when the caches may hold something newer.
+    pub fn dma_read(&mut self, address: u32, count: usize) -> Result<Vec<u8>, Violation> {
+        let mut bytes = vec![0; count];
+        // A refusal leaves its reason with the bus.
+        let _ = self.bus.dma_read(address, &mut bytes);
+        self.bus.take_violation().map_or(Ok(bytes), Err)
+    }
+
+    /// Writes memory as a bus master does.
+    ///
+    /// # Errors
+    /// [`Violation`] when the caches may write something back over it.
+    pub fn dma_write(&mut self, address: u32, bytes: &[u8]) -> Result<(), Violation> {
+        // A refusal leaves its reason with the bus.
+        let _ = self.bus.dma_write(address, bytes);
+        self.bus.take_violation().map_or(Ok(()), Err)
+    }
+
+    /// Ends the processor's wait for an event.
+    pub fn wake(&mut self) {
+        self.cpu.wake();
+    }
+
     /// Returns how often caches were maintained and bus masters were at work.
     pub fn cache_counts(&self) -> Counts {
         self.bus.caches.counts()
+    }
+
+    /// Returns how many instructions the processor has run since it was started last.
+    pub fn instructions(&self) -> u64 {
+        self.cpu.instructions()
     }
 
     /// Returns the processor's registers.

@@ -58,6 +58,7 @@ pub struct Interpreter {
     arm: Arm,
     bus: Arc<Bus>,
     system: Arc<SystemControl>,
+    instructions: u64,
 }
 
 impl Cpu for Interpreter {
@@ -76,7 +77,7 @@ impl Cpu for Interpreter {
         arm.attach_coprocessor(15, system.clone());
         // The reset sequence.
         arm.step();
-        Self { arm, bus, system }
+        Self { arm, bus, system, instructions: 0 }
     }
 
     fn start(&mut self, start: &Start) {
@@ -89,7 +90,7 @@ impl Cpu for Interpreter {
     }
 
     fn run(&mut self) -> Pause {
-        let Self { arm, bus, .. } = self;
+        let Self { arm, bus, instructions, .. } = self;
         arm.set_irq(bus.interrupt());
         let asleep = || arm.is_halted() && !bus.interrupt();
         if asleep() {
@@ -97,6 +98,7 @@ impl Cpu for Interpreter {
         }
         loop {
             arm.step();
+            *instructions += 1;
             let now = bus.now() + 1;
             bus.set_now(now);
             if now < bus.deadline() {
@@ -108,6 +110,15 @@ impl Cpu for Interpreter {
 
     fn jump(&mut self, address: u32) {
         self.arm.set_pc(address);
+    }
+
+    fn wake(&mut self) {
+        self.arm.send_event();
+        self.arm.step();
+    }
+
+    fn instructions(&self) -> u64 {
+        self.instructions
     }
 
     fn registers(&self) -> Registers {

@@ -64,7 +64,7 @@ impl Usb {
             log,
             hub,
             keyboard: Shared::new(keyboard(Form::Boot, Speed::Low)),
-            pad: Shared::new(dualshock3(Temper::Plain)),
+            pad: Shared::new(dualshock3(Temper::Sony)),
             told: [0; 2],
         }
     }
