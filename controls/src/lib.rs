@@ -30,7 +30,9 @@
 //! | previous scene | Select | Backspace | a press |
 //! | reset pose | R3 (push the right stick) | R | the tilt is level again, at once; pan, turn and zoom as at the start |
 //! | centre | L3 (push the left stick) | F | pan, turn and zoom are as at the start |
-//! | no effect yet | D-pad; Triangle, Circle, Square, PS; L1, R1; L2, R2 | I J K L; Tab, C, V, Escape; 1, 2; 3, 4 | read and reported; the viewer has no use for them yet |
+//! | next style | Triangle | Tab | flat, smooth, wireframe, hidden lines, depth as grey |
+//! | projection | Square | V | perspective or orthographic |
+//! | no effect yet | D-pad; Circle, PS; L1, R1; L2, R2 | I J K L; C, Escape; 1, 2; 3, 4 | read and reported; the viewer has no use for them yet |
 //!
 //! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
 //! every other control is the viewer's, in `firmware`. The DE1-SoC's own keys and switches do what the

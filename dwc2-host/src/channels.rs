@@ -67,7 +67,7 @@ impl State<'_> {
 
     /// Starts every step that is due, as far as there are channels.
     pub(crate) fn launch(&mut self, now: u64) {
-        if !matches!(self.phase, Phase::Ready { .. }) {
+        if self.phase != Phase::Ready {
             return;
         }
         self.give_up_late_splits();
@@ -134,14 +134,21 @@ impl State<'_> {
 
     /// Periodic splits whose last microframe has passed begin anew at the endpoint's next turn.
     fn give_up_late_splits(&mut self) {
-        for slot in self.slots.iter_mut().flatten() {
-            if let (Activity::Waiting { from }, Split::Complete { start }) = (&mut slot.activity, slot.effort.split)
-                && slot.endpoint.periodic()
-            {
-                let next = self.hardware.read::<Hfnum>().number() + 1;
-                if frames_since(next, start) > LAST_COMPLETE_SPLIT {
-                    slot.effort.split = Split::Start;
-                    *from = slot.next_turn;
+        for index in 0..PIPES {
+            let Some(slot) = &mut self.slots[index] else { continue };
+            let (Activity::Waiting { .. }, Split::Complete { start }) = (slot.activity, slot.effort.split) else {
+                continue;
+            };
+            if !slot.endpoint.periodic() {
+                continue;
+            }
+            let next = self.hardware.read::<Hfnum>().number() + 1;
+            if frames_since(next, start) > LAST_COMPLETE_SPLIT {
+                slot.effort.split = Split::Start;
+                slot.activity = Activity::Waiting { from: slot.next_turn };
+                let fate = slot.effort.fate;
+                if fate != Fate::Wanted {
+                    self.end(index, fate.result());
                 }
             }
         }
@@ -232,8 +239,10 @@ impl State<'_> {
     /// Seals a transfer's fate: it ends as soon as its channel is free.
     pub(crate) fn abandon(&mut self, index: usize, fate: Fate, now: u64) {
         let Some(slot) = &mut self.slots[index] else { return };
-        if !slot.busy() {
+        if let Activity::Done(_) = slot.activity {
             slot.activity = Activity::Idle;
+        }
+        if !slot.busy() {
             return;
         }
         slot.effort.fate = fate;

@@ -47,12 +47,23 @@ impl<'d> Core<'d> {
         self.board.now_us()
     }
 
+    /// Not inlined, as `write_at`: they are called in a hundred places.
+    #[inline(never)]
+    fn read_at(&mut self, offset: u32) -> u32 {
+        self.board.read_register(offset)
+    }
+
+    #[inline(never)]
+    fn write_at(&mut self, offset: u32, bits: u32) {
+        self.board.write_register(offset, bits);
+    }
+
     pub(crate) fn read<R: Register>(&mut self) -> R {
-        R::from_bits(self.board.read_register(R::OFFSET))
+        R::from_bits(self.read_at(R::OFFSET))
     }
 
     pub(crate) fn write<R: Register>(&mut self, register: R) {
-        self.board.write_register(R::OFFSET, register.bits());
+        self.write_at(R::OFFSET, register.bits());
     }
 
     pub(crate) fn modify<R: Register>(&mut self, change: impl FnOnce(R) -> R) {
@@ -61,16 +72,22 @@ impl<'d> Core<'d> {
     }
 
     pub(crate) fn read_channel<R: Register>(&mut self, channel: u8) -> R {
-        R::from_bits(self.board.read_register(R::OFFSET + CHANNEL_STRIDE * u32::from(channel)))
+        R::from_bits(self.read_at(R::OFFSET + CHANNEL_STRIDE * u32::from(channel)))
     }
 
     pub(crate) fn write_channel<R: Register>(&mut self, channel: u8, register: R) {
-        self.board.write_register(R::OFFSET + CHANNEL_STRIDE * u32::from(channel), register.bits());
+        self.write_at(R::OFFSET + CHANNEL_STRIDE * u32::from(channel), register.bits());
+    }
+
+    #[inline(never)]
+    fn port(&mut self) -> Hprt {
+        self.read::<Hprt>().kept()
     }
 
     /// Changes the port and clears none of its write-one-to-clear bits by accident.
     pub(crate) fn modify_port(&mut self, change: impl FnOnce(Hprt) -> Hprt) {
-        self.modify(|port: Hprt| change(port.kept()));
+        let port = change(self.port());
+        self.write(port);
     }
 
     /// Length in bytes and bus address of the DMA memory.

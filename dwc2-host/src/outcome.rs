@@ -12,6 +12,8 @@ const STRIKES: u8 = 3;
 const NAKS_BEFORE_PAUSE: u8 = 3;
 /// The last microframe for a complete split, counted from the start split (USB 2.0 §11.18.4; Linux's 4 microframes).
 pub(crate) const LAST_COMPLETE_SPLIT: u16 = 4;
+/// HCTSIZ's packet identifier after part of a packet came (USB 2.0 §8.4.4).
+const MDATA: u8 = 3;
 /// HFNUM counts modulo this.
 pub(crate) const FRAME_NUMBERS: u16 = 0x4000;
 
@@ -87,6 +89,12 @@ impl Slot {
         slot.effort.errors = 0;
         slot.effort.naks = 0;
         slot.effort.split = Split::Start;
+        if slot.endpoint.periodic() && slot.endpoint.splits() && program.input && left.identifier() == MDATA {
+            // Part of a packet: the rest is still on the slow bus. The device believes it delivered; better no report
+            // than half of one.
+            slot.toggle = !slot.toggle;
+            return Verdict::Wait(slot.next_turn);
+        }
         slot.ping = slot.endpoint.high_speed && !program.input && interrupts.nyet();
         slot.touch(now);
         match slot.effort.transfer.complete(&slot.endpoint, &mut slot.toggle, program, left.bytes() as usize) {
@@ -176,17 +184,20 @@ impl Slot {
     }
 
     /// A transfer that is not wanted any more ends, but a translator is not left with an answer that nobody fetches:
-    /// its buffer would stay taken (USB 2.0 §11.17.4).
+    /// its buffer would stay taken (USB 2.0 §11.17.4), and a report would be lost.
     fn seal(&self, verdict: Verdict) -> Verdict {
-        match self.effort.fate {
-            Fate::Wanted => verdict,
+        match (self.effort.fate, verdict) {
+            (Fate::Wanted, _) => verdict,
             _ if self.owes_complete_split() => verdict,
-            fate => Verdict::End(fate.result()),
+            (Fate::Cancelled, Verdict::End(Ok(_))) if self.endpoint.periodic() && self.effort.transfer.input() => {
+                verdict
+            }
+            (fate, _) => Verdict::End(fate.result()),
         }
     }
 
-    /// A translator holds a buffer for this endpoint until a complete split fetches what is in it.
+    /// A translator holds something for this endpoint until a complete split fetches it.
     pub(crate) fn owes_complete_split(&self) -> bool {
-        matches!(self.effort.split, Split::Complete { .. }) && !self.endpoint.periodic()
+        matches!(self.effort.split, Split::Complete { .. })
     }
 }

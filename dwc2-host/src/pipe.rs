@@ -19,9 +19,11 @@ use crate::{Dwc2, TransferError};
 ///
 /// - A control transfer fails with `Timeout` when it has not moved for the time given to
 ///   [`set_timeout`](UsbPipe::set_timeout) (USB 2.0 §9.2.6.4: 500 ms with data, 50 ms without, to begin with).
+/// - A control transfer's bytes must cover its wLength, else it fails with `BufferOverflow` before it begins.
 /// - A bulk transfer is tried as long as the device answers NAK.
 /// - `request_in` on an interrupt pipe returns one packet, the next that the device has; the endpoint is asked no more often than its
-///   interval says, and only while somebody waits.
+///   interval says, and only while somebody waits. A packet that comes while the request is being dropped is the next
+///   request's.
 /// - Three strikes in a row (no answer, or a broken one) end a transfer with `BadResponse`.
 pub struct Pipe<'d, T: pipe::Type, D: pipe::Direction> {
     driver: &'d Dwc2<'d>,
@@ -45,78 +47,56 @@ impl Drop for Watch<'_> {
     }
 }
 
-impl<'d> Watch<'d> {
-    /// Waits until an earlier transfer that was cancelled has left its channel, and submits this one.
-    async fn submit(&self, transfer: impl Fn(&mut State, &Endpoint) -> Transfer) -> Result<(), TransferError> {
-        poll_fn(|context| self.driver.with(|state| state.submit(self.index, context, &transfer))).await
-    }
+/// The caller's bytes.
+enum Data<'b> {
+    /// To be filled by the device.
+    In(&'b mut [u8]),
+    /// For the device, and whether a full last packet is followed by an empty one.
+    Out(&'b [u8], bool),
+}
 
-    /// Waits until the transfer is over (true) or its buffer is the caller's (false).
-    async fn turn(&self) -> Result<bool, TransferError> {
-        poll_fn(|context| self.driver.with(|state| state.turn(self.index, context))).await
+impl Data<'_> {
+    fn length(&self) -> usize {
+        match self {
+            Self::In(bytes) => bytes.len(),
+            Self::Out(bytes, _) => bytes.len(),
+        }
     }
 }
 
-/// A transfer from the device, with SETUP or without; the bytes that came.
-async fn read<'d>(
+/// A transfer, with SETUP or without; the bytes that moved.
+async fn transfer<'d>(
     driver: &'d Dwc2<'d>,
     index: usize,
     setup: Option<&[u8; 8]>,
-    buffer: &mut [u8],
+    mut data: Data<'_>,
 ) -> Result<usize, TransferError> {
     let watch = Watch { driver, index };
-    let total = setup.map_or(buffer.len(), |setup| buffer.len().min(length_of(setup)));
-    watch
-        .submit(|state, endpoint| match setup {
-            Some(setup) => {
-                state.hardware.copy_in(index, Buffer::Setup, setup);
-                Transfer::control(endpoint, true, total)
-            }
-            None => Transfer::data(endpoint, true, total, false),
-        })
-        .await?;
+    let total = data_length(setup, data.length())?;
+    let request = Request { setup, total };
+    poll_fn(|context| watch.driver.with(|state| state.submit(index, context, request, &data))).await?;
     loop {
-        let over = watch.turn().await?;
-        let moved = driver.with(|state| state.take_bytes(index, buffer, over));
+        let over = poll_fn(|context| watch.driver.with(|state| state.turn(index, context))).await?;
+        let moved = watch.driver.with(|state| state.exchange(index, &mut data, over));
         if over {
             return Ok(moved);
         }
     }
 }
 
-/// A transfer to the device, with SETUP or without.
-async fn write<'d>(
-    driver: &'d Dwc2<'d>,
-    index: usize,
-    setup: Option<&[u8; 8]>,
-    bytes: &[u8],
-    zero_packet: bool,
-) -> Result<(), TransferError> {
-    let watch = Watch { driver, index };
-    let total = setup.map_or(bytes.len(), |setup| bytes.len().min(length_of(setup)));
-    watch
-        .submit(|state, endpoint| {
-            let transfer = match setup {
-                Some(setup) => {
-                    state.hardware.copy_in(index, Buffer::Setup, setup);
-                    Transfer::control(endpoint, false, total)
-                }
-                None => Transfer::data(endpoint, false, total, zero_packet),
-            };
-            let (from, length) = transfer.span();
-            state.hardware.copy_in(index, Buffer::Data(0), bytes.get(from..from + length).unwrap_or_default());
-            transfer
-        })
-        .await?;
-    while !watch.turn().await? {
-        driver.with(|state| state.give_bytes(index, bytes));
-    }
-    Ok(())
+/// What a transfer is to do.
+#[derive(Clone, Copy)]
+struct Request<'s> {
+    setup: Option<&'s [u8; 8]>,
+    /// Bytes of data.
+    total: usize,
 }
 
-/// A SETUP packet's wLength.
-fn length_of(setup: &[u8; 8]) -> usize {
-    usize::from(u16::from_le_bytes([setup[6], setup[7]]))
+/// Bytes of the data stage: a SETUP packet's wLength, which the caller's bytes have to cover, or all of those.
+fn data_length(setup: Option<&[u8; 8]>, bytes: usize) -> Result<usize, TransferError> {
+    let Some(setup) = setup else { return Ok(bytes) };
+    let length = usize::from(u16::from_le_bytes([setup[6], setup[7]]));
+    if length > bytes { Err(TransferError::BufferOverflow) } else { Ok(length) }
 }
 
 impl State<'_> {
@@ -127,8 +107,10 @@ impl State<'_> {
         info: &EndpointInfo,
         split: Option<SplitInfo>,
     ) -> Result<usize, HostError> {
-        let Phase::Ready { speed } = self.phase else { return Err(HostError::NoSuchDevice) };
-        let endpoint = Endpoint::new(speed, address, info, split)?;
+        if self.phase != Phase::Ready {
+            return Err(HostError::NoSuchDevice);
+        }
+        let endpoint = Endpoint::new(self.speed, address, info, split)?;
         let index = self.slots.iter().position(Option::is_none).ok_or(HostError::OutOfPipes)?;
         self.slots[index] = Some(Slot::new(endpoint));
         Ok(index)
@@ -146,34 +128,47 @@ impl State<'_> {
         }
     }
 
+    /// Waits until an earlier transfer that was cancelled has left its channel, and submits this one.
     fn submit(
         &mut self,
         index: usize,
         context: &Context<'_>,
-        make: &impl Fn(&mut State, &Endpoint) -> Transfer,
+        request: Request<'_>,
+        data: &Data<'_>,
     ) -> Poll<Result<(), TransferError>> {
-        let ready = matches!(self.phase, Phase::Ready { .. });
         let gone = Poll::Ready(Err(TransferError::Disconnected));
         let Some(slot) = &mut self.slots[index] else { return gone };
-        if slot.stale || !ready {
+        if slot.stale || self.phase != Phase::Ready {
             return gone;
         }
         if slot.busy() {
             slot.waker = Some(context.waker().clone());
             return Poll::Pending;
         }
-        let endpoint = slot.endpoint;
-        let transfer = make(self, &endpoint);
-        let now = self.hardware.now();
-        if let Some(slot) = &mut self.slots[index] {
-            slot.effort = Effort::new(transfer);
-            let from = if endpoint.periodic() { slot.next_turn.max(now) } else { now };
-            slot.activity = Activity::Waiting { from };
+        let (input, zero_packet) = match data {
+            Data::In(_) => (true, false),
+            Data::Out(_, zero_packet) => (false, *zero_packet),
+        };
+        let mut transfer = Transfer::data(&slot.endpoint, input, request.total, zero_packet);
+        if let Some(setup) = request.setup {
+            transfer = transfer.with_setup();
+            self.hardware.copy_in(index, Buffer::Setup, setup);
         }
+        if let Data::Out(bytes, _) = data {
+            self.hardware.copy_in(index, Buffer::Data(0), part(bytes, transfer.span()));
+        }
+        let now = self.hardware.now();
+        slot.effort = Effort::new(transfer);
+        slot.activity = match slot.activity {
+            Activity::Kept(length) => Activity::Done(slot.effort.transfer.take_kept(length)),
+            _ if slot.endpoint.periodic() => Activity::Waiting { from: slot.next_turn.max(now) },
+            _ => Activity::Waiting { from: now },
+        };
         self.launch(now);
         Poll::Ready(Ok(()))
     }
 
+    /// Waits until the transfer is over (true) or its buffer is the caller's (false).
     fn turn(&mut self, index: usize, context: &Context<'_>) -> Poll<Result<bool, TransferError>> {
         let Some(slot) = &mut self.slots[index] else { return Poll::Ready(Err(TransferError::Disconnected)) };
         match slot.activity {
@@ -186,41 +181,35 @@ impl State<'_> {
         }
     }
 
-    /// Copies what came into the caller's buffer; the bytes of the transfer so far.
-    fn take_bytes(&mut self, index: usize, buffer: &mut [u8], over: bool) -> usize {
+    /// Empties the buffer into the caller's bytes, or fills it with the next of them; the bytes of the transfer so far.
+    fn exchange(&mut self, index: usize, data: &mut Data<'_>, over: bool) -> usize {
         let Some(slot) = &mut self.slots[index] else { return 0 };
-        let (from, length) = slot.effort.transfer.span();
-        if let Some(part) = buffer.get_mut(from..from + length) {
-            self.hardware.copy_out(index, Buffer::Data(0), part);
+        let transfer = &mut slot.effort.transfer;
+        let (from, length) = transfer.span();
+        if let Data::In(bytes) = data
+            && let Some(bytes) = bytes.get_mut(from..from + length)
+        {
+            self.hardware.copy_out(index, Buffer::Data(0), bytes);
         }
-        if !over {
-            self.resume(index);
+        // The device may have gone since its turn was the caller's.
+        if over || !matches!(slot.activity, Activity::Exchange) {
+            return from + length;
         }
+        transfer.exchanged(&slot.endpoint);
+        if let Data::Out(bytes, _) = data {
+            self.hardware.copy_in(index, Buffer::Data(0), part(bytes, transfer.span()));
+        }
+        let now = self.hardware.now();
+        slot.touch(now);
+        slot.activity = Activity::Waiting { from: now };
+        self.launch(now);
         from + length
     }
+}
 
-    /// Copies the next bytes in.
-    fn give_bytes(&mut self, index: usize, bytes: &[u8]) {
-        let Some(slot) = &mut self.slots[index] else { return };
-        let mut next = slot.effort.transfer;
-        next.exchanged(&slot.endpoint);
-        let (from, length) = next.span();
-        self.hardware.copy_in(index, Buffer::Data(0), bytes.get(from..from + length).unwrap_or_default());
-        self.resume(index);
-    }
-
-    /// The buffer is the core's again.
-    fn resume(&mut self, index: usize) {
-        let now = self.hardware.now();
-        if let Some(slot) = &mut self.slots[index]
-            && matches!(slot.activity, Activity::Exchange)
-        {
-            slot.effort.transfer.exchanged(&slot.endpoint);
-            slot.touch(now);
-            slot.activity = Activity::Waiting { from: now };
-        }
-        self.launch(now);
-    }
+/// The bytes of a span; none where it is not inside.
+fn part(bytes: &[u8], (from, length): (usize, usize)) -> &[u8] {
+    bytes.get(from..from + length).unwrap_or_default()
 }
 
 impl<'d, T: pipe::Type, D: pipe::Direction> Pipe<'d, T, D> {
@@ -261,7 +250,7 @@ impl<T: pipe::Type, D: pipe::Direction> UsbPipe<T, D> for Pipe<'_, T, D> {
         T: pipe::IsControl,
         D: pipe::IsIn,
     {
-        let result = read(self.driver, self.index, Some(setup), buffer).await;
+        let result = transfer(self.driver, self.index, Some(setup), Data::In(buffer)).await;
         self.note(result)
     }
 
@@ -270,15 +259,15 @@ impl<T: pipe::Type, D: pipe::Direction> UsbPipe<T, D> for Pipe<'_, T, D> {
         T: pipe::IsControl,
         D: pipe::IsOut,
     {
-        let result = write(self.driver, self.index, Some(setup), bytes, false).await;
-        self.note(result)
+        let result = transfer(self.driver, self.index, Some(setup), Data::Out(bytes, false)).await;
+        self.note(result).map(drop)
     }
 
     async fn request_in(&mut self, buffer: &mut [u8]) -> Result<usize, PipeError>
     where
         D: pipe::IsIn,
     {
-        let result = read(self.driver, self.index, None, buffer).await;
+        let result = transfer(self.driver, self.index, None, Data::In(buffer)).await;
         self.note(result)
     }
 
@@ -286,8 +275,8 @@ impl<T: pipe::Type, D: pipe::Direction> UsbPipe<T, D> for Pipe<'_, T, D> {
     where
         D: pipe::IsOut,
     {
-        let result = write(self.driver, self.index, None, bytes, ensure_transaction_end).await;
-        self.note(result)
+        let result = transfer(self.driver, self.index, None, Data::Out(bytes, ensure_transaction_end)).await;
+        self.note(result).map(drop)
     }
 
     fn set_timeout(&mut self, timeout: TimeoutConfig)
@@ -305,6 +294,9 @@ impl<T: pipe::Type, D: pipe::Direction> UsbPipe<T, D> for Pipe<'_, T, D> {
             if let Some(slot) = &mut state.slots[self.index] {
                 slot.toggle = false;
                 slot.ping = false;
+                if let Activity::Kept(_) = slot.activity {
+                    slot.activity = Activity::Idle;
+                }
             }
         });
     }

@@ -14,59 +14,50 @@ use crate::{Fault, PIPES, SpeedLimit, TransferError};
 const HIGH_SPEED_INTERVAL: u32 = 7_500;
 const FULL_SPEED_INTERVAL: u32 = 60_000;
 
-/// Where the core and its root port stand. Phases before `Empty` are the core's start ([`crate::start`]).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Where the core and its root port stand, in the order of their coming. Phases before `Empty` are the core's start
+/// ([`crate::start`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Phase {
     /// Shut down.
     Off,
+    /// A fault; the core is started anew at the end.
+    Failed,
     /// Not touched yet.
     Identify,
     /// The bus master finishes before the soft reset.
-    AwaitIdle { until: u64 },
+    AwaitIdle,
     /// The soft reset runs.
-    AwaitReset { until: u64 },
+    AwaitReset,
     /// The bus master settles after it.
-    AwaitIdleAgain { until: u64 },
+    AwaitIdleAgain,
     /// The core becomes a host.
-    AwaitHost { from: u64, until: u64 },
+    AwaitHost,
     /// The transmit FIFOs are emptied.
-    AwaitTransmitFlush { until: u64 },
+    AwaitTransmitFlush,
     /// The receive FIFO is emptied.
-    AwaitReceiveFlush { until: u64 },
+    AwaitReceiveFlush,
     /// Channels that survived the reset halt.
-    AwaitHalts { until: u64 },
+    AwaitHalts,
     /// Nothing is plugged in.
     Empty,
-    /// Something is, since then.
-    Debounce { since: u64 },
+    /// Something is.
+    Debounce,
     /// The channels halt before a reset that the stack asked for.
-    Quieten { until: u64 },
+    Quieten,
     /// The bus is reset.
-    Reset { until: u64 },
+    Reset,
     /// The port enables itself.
-    AwaitEnable { until: u64 },
+    AwaitEnable,
     /// The device recovers.
-    Recover { until: u64, speed: Speed },
+    Recover,
     /// The device may be talked to.
-    Ready { speed: Speed },
-    /// A fault; the core is started anew then.
-    Failed { until: u64 },
+    Ready,
 }
 
 impl Phase {
     /// The core has been started: its interrupts and its port mean something.
     pub(crate) fn started(self) -> bool {
-        use Phase::*;
-        matches!(
-            self,
-            Empty
-                | Debounce { .. }
-                | Quieten { .. }
-                | Reset { .. }
-                | AwaitEnable { .. }
-                | Recover { .. }
-                | Ready { .. }
-        )
+        self >= Self::Empty
     }
 }
 
@@ -102,71 +93,69 @@ impl State<'_> {
             self.news.overcurrent();
             return self.fail(Fault::OverCurrent, now);
         }
+        let over = now >= self.phase_end;
         match self.phase {
-            Phase::Empty | Phase::Debounce { .. } => self.debounce(port, now),
+            Phase::Empty | Phase::Debounce => self.debounce(port, now, over),
             _ if !port.connected() || port.connect_detected() => self.lose_device(),
-            Phase::Quieten { until } => {
-                if self.channels.iter().all(Option::is_none) {
-                    self.start_reset(now);
-                } else if now >= until {
-                    self.fail(Fault::ChannelStuck { channel: self.first_busy_channel() }, now);
-                }
-            }
-            Phase::Reset { until } if now >= until => {
+            Phase::Quieten => match self.channels.iter().position(Option::is_some) {
+                None => self.start_reset(now),
+                Some(channel) if over => self.fail(Fault::ChannelStuck { channel: channel as u8 }, now),
+                Some(_) => {}
+            },
+            Phase::Reset if over => {
                 self.hardware.modify_port(|port| port.with_reset(false));
-                self.phase = Phase::AwaitEnable { until: now + ENABLE_LIMIT_US };
+                self.enter(Phase::AwaitEnable, now + ENABLE_LIMIT_US);
             }
-            Phase::AwaitEnable { .. } if port.enabled() => {
-                let speed = match port.speed() {
+            Phase::AwaitEnable if port.enabled() => {
+                self.speed = match port.speed() {
                     0 => Speed::High,
                     1 => Speed::Full,
                     _ => Speed::Low,
                 };
-                self.set_frame_interval(speed);
-                self.phase = Phase::Recover { until: now + RESET_RECOVERY_US, speed };
+                self.set_frame_interval();
+                self.enter(Phase::Recover, now + RESET_RECOVERY_US);
             }
-            Phase::AwaitEnable { until } if now >= until => self.fail(Fault::PortNotEnabled, now),
-            Phase::Recover { .. } | Phase::Ready { .. } if !port.enabled() => self.fail(Fault::PortDisabled, now),
-            Phase::Recover { until, speed } if now >= until => {
-                self.phase = Phase::Ready { speed };
+            Phase::AwaitEnable if over => self.fail(Fault::PortNotEnabled, now),
+            Phase::Recover | Phase::Ready if !port.enabled() => self.fail(Fault::PortDisabled, now),
+            Phase::Recover if over => {
+                self.phase = Phase::Ready;
                 if core::mem::take(&mut self.reset_asked) {
                     self.news.end_reset();
                 } else {
-                    self.news.connect(speed);
+                    self.news.connect(self.speed);
                 }
             }
             _ => {}
         }
     }
 
-    fn debounce(&mut self, port: Hprt, now: u64) {
-        self.phase = match self.phase {
-            _ if !port.connected() => Phase::Empty,
-            Phase::Debounce { since } if !port.connect_detected() => {
-                if now < since + DEBOUNCE_US {
-                    return;
-                }
-                return self.start_reset(now);
-            }
-            _ => Phase::Debounce { since: now },
-        };
+    /// Goes to a phase that is over, or fails, at `end`.
+    pub(crate) fn enter(&mut self, phase: Phase, end: u64) {
+        self.phase = phase;
+        self.phase_end = end;
+    }
+
+    fn debounce(&mut self, port: Hprt, now: u64, over: bool) {
+        if !port.connected() {
+            self.phase = Phase::Empty;
+        } else if self.phase == Phase::Empty || port.connect_detected() {
+            self.enter(Phase::Debounce, now + DEBOUNCE_US);
+        } else if over {
+            self.start_reset(now);
+        }
     }
 
     fn start_reset(&mut self, now: u64) {
         self.hardware.modify_port(|port| port.with_reset(true));
-        self.phase = Phase::Reset { until: now + ROOT_RESET_US };
+        self.enter(Phase::Reset, now + ROOT_RESET_US);
     }
 
-    fn set_frame_interval(&mut self, speed: Speed) {
-        let clocks = if speed == Speed::High { HIGH_SPEED_INTERVAL } else { FULL_SPEED_INTERVAL };
+    fn set_frame_interval(&mut self) {
+        let clocks = if self.speed == Speed::High { HIGH_SPEED_INTERVAL } else { FULL_SPEED_INTERVAL };
         // A 16-bit UTMI+ path runs at half the clock.
         let half = self.hardware.read::<Gusbcfg>().phy_16_bit();
         let clocks = if half { clocks / 2 } else { clocks };
         self.hardware.write(Hfir::default().with_interval((clocks - 1) as u16));
-    }
-
-    fn first_busy_channel(&self) -> u8 {
-        self.channels.iter().position(Option::is_some).unwrap_or(0) as u8
     }
 
     /// The device is gone. Its channels may never halt any more, so the core is reset (`hathach/tinyusb` PR 3815).
@@ -182,11 +171,11 @@ impl State<'_> {
     /// Resets the bus at the stack's wish. Pipes to devices that have an address are no good any more.
     pub(crate) fn ask_reset(&mut self, now: u64) {
         self.news.take_reset_over();
-        if !matches!(self.phase, Phase::Ready { .. }) {
+        if self.phase != Phase::Ready {
             return self.news.end_reset();
         }
         self.reset_asked = true;
-        self.phase = Phase::Quieten { until: now + HALT_LIMIT_US + SPLIT_DRAIN_US };
+        self.enter(Phase::Quieten, now + HALT_LIMIT_US + SPLIT_DRAIN_US);
         let gone = Fate::Failed(TransferError::Disconnected);
         for index in 0..PIPES {
             let Some(slot) = &mut self.slots[index] else { continue };
@@ -194,7 +183,7 @@ impl State<'_> {
             match slot.activity {
                 Activity::Running { .. } | Activity::Halting { .. } => self.abandon(index, gone, now),
                 Activity::Waiting { .. } | Activity::Exchange => self.end(index, gone.result()),
-                Activity::Idle | Activity::Done(_) => {}
+                Activity::Idle | Activity::Done(_) | Activity::Kept(_) => {}
             }
         }
     }
@@ -206,7 +195,7 @@ impl State<'_> {
             self.hardware.modify(|master: Gahbcfg| master.with_global_interrupt(false));
         }
         self.lose_device();
-        self.phase = Phase::Failed { until: now + FAULT_PAUSE_US };
+        self.enter(Phase::Failed, now + FAULT_PAUSE_US);
     }
 
     /// Turns the port off and leaves the core idle.

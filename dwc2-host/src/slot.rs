@@ -21,6 +21,8 @@ pub(crate) enum Activity {
     Exchange,
     /// Ended.
     Done(Result<usize, TransferError>),
+    /// A packet of so many bytes came when nobody waited any more: it is the next request's.
+    Kept(usize),
 }
 
 /// How far a split transaction is.
@@ -117,7 +119,7 @@ impl Slot {
 
     /// A transfer of it is under way, on the bus or between two visits there.
     pub(crate) fn busy(&self) -> bool {
-        !matches!(self.activity, Activity::Idle | Activity::Done(_))
+        !matches!(self.activity, Activity::Idle | Activity::Done(_) | Activity::Kept(_))
     }
 }
 

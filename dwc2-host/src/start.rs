@@ -35,75 +35,63 @@ impl State<'_> {
     /// One step of the start; the phase stays when it has to wait.
     pub(crate) fn advance_start(&mut self, now: u64) {
         let soon = now + SELF_CLEARING_LIMIT_US;
-        match self.phase {
-            Phase::Identify => match self.identify() {
-                Ok(()) => {
-                    self.choose_phy();
-                    self.phase = Phase::AwaitIdle { until: soon };
-                }
-                Err(fault) => self.fail(fault, now),
+        let reset: Grstctl = match self.phase {
+            Phase::Off => return,
+            Phase::Failed if now < self.phase_end => return,
+            Phase::Failed => return self.phase = Phase::Identify,
+            Phase::Identify => {
+                return match self.identify() {
+                    Ok(()) => {
+                        self.choose_phy();
+                        self.enter(Phase::AwaitIdle, soon);
+                    }
+                    Err(fault) => self.fail(fault, now),
+                };
+            }
+            _ => self.hardware.read(),
+        };
+        let is_host = self.phase == Phase::AwaitHost && self.is_host(now);
+        let fault = match self.phase {
+            Phase::AwaitIdle if reset.idle() => {
+                self.hardware.write(Grstctl::default().with_core_soft_reset(true));
+                return self.enter(Phase::AwaitReset, soon);
+            }
+            Phase::AwaitReset if !reset.core_soft_reset() => return self.enter(Phase::AwaitIdleAgain, soon),
+            Phase::AwaitReset => Fault::ResetStuck,
+            Phase::AwaitIdleAgain if reset.idle() => {
+                self.force_host();
+                return self.enter(Phase::AwaitHost, now + FORCE_HOST_LIMIT_US);
+            }
+            Phase::AwaitIdle | Phase::AwaitIdleAgain => Fault::NeverIdle,
+            Phase::AwaitHost if is_host => {
+                self.configure();
+                self.hardware.write(Grstctl::default().with_flush_transmit(true).with_transmit_fifo(ALL_FIFOS));
+                return self.enter(Phase::AwaitTransmitFlush, soon);
+            }
+            Phase::AwaitHost => Fault::NotHost,
+            Phase::AwaitTransmitFlush if !reset.flush_transmit() => {
+                self.hardware.write(Grstctl::default().with_flush_receive(true));
+                return self.enter(Phase::AwaitReceiveFlush, soon);
+            }
+            Phase::AwaitReceiveFlush if !reset.flush_receive() => {
+                self.halt_survivors();
+                return self.enter(Phase::AwaitHalts, soon);
+            }
+            Phase::AwaitTransmitFlush | Phase::AwaitReceiveFlush => Fault::FlushStuck,
+            _ => match self.survivor() {
+                Some(channel) => Fault::ChannelStuck { channel },
+                None => return self.open(),
             },
-            Phase::AwaitIdle { until } => {
-                if self.hardware.read::<Grstctl>().idle() {
-                    self.hardware.write(Grstctl::default().with_core_soft_reset(true));
-                    self.phase = Phase::AwaitReset { until: soon };
-                } else {
-                    self.limit(until, Fault::NeverIdle, now);
-                }
-            }
-            Phase::AwaitReset { until } => {
-                if self.hardware.read::<Grstctl>().core_soft_reset() {
-                    self.limit(until, Fault::ResetStuck, now);
-                } else {
-                    self.phase = Phase::AwaitIdleAgain { until: soon };
-                }
-            }
-            Phase::AwaitIdleAgain { until } => {
-                if self.hardware.read::<Grstctl>().idle() {
-                    self.force_host();
-                    self.phase = Phase::AwaitHost { from: now + FORCE_HOST_US, until: now + FORCE_HOST_LIMIT_US };
-                } else {
-                    self.limit(until, Fault::NeverIdle, now);
-                }
-            }
-            Phase::AwaitHost { from, until } => {
-                if now >= from && self.hardware.read::<Gintsts>().host_mode() {
-                    self.configure();
-                    self.hardware.write(Grstctl::default().with_flush_transmit(true).with_transmit_fifo(ALL_FIFOS));
-                    self.phase = Phase::AwaitTransmitFlush { until: soon };
-                } else {
-                    self.limit(until, Fault::NotHost, now);
-                }
-            }
-            Phase::AwaitTransmitFlush { until } => {
-                if self.hardware.read::<Grstctl>().flush_transmit() {
-                    self.limit(until, Fault::FlushStuck, now);
-                } else {
-                    self.hardware.write(Grstctl::default().with_flush_receive(true));
-                    self.phase = Phase::AwaitReceiveFlush { until: soon };
-                }
-            }
-            Phase::AwaitReceiveFlush { until } => {
-                if self.hardware.read::<Grstctl>().flush_receive() {
-                    self.limit(until, Fault::FlushStuck, now);
-                } else {
-                    self.halt_survivors();
-                    self.phase = Phase::AwaitHalts { until: soon };
-                }
-            }
-            Phase::AwaitHalts { until } => match self.survivor() {
-                Some(channel) => self.limit(until, Fault::ChannelStuck { channel }, now),
-                None => self.open(),
-            },
-            Phase::Failed { until } if now >= until => self.phase = Phase::Identify,
-            _ => {}
+        };
+        if now >= self.phase_end {
+            self.fail(fault, now);
         }
     }
 
-    fn limit(&mut self, until: u64, fault: Fault, now: u64) {
-        if now >= until {
-            self.fail(fault, now);
-        }
+    /// The core is a host, and has had the time that it needs after it was forced.
+    fn is_host(&mut self, now: u64) -> bool {
+        let forced = self.phase_end - FORCE_HOST_LIMIT_US;
+        now >= forced + FORCE_HOST_US && self.hardware.read::<Gintsts>().host_mode()
     }
 
     /// Looks whether this is a core that the driver can drive; writes nothing.
@@ -111,6 +99,10 @@ impl State<'_> {
         let id: Gsnpsid = self.hardware.read();
         if id.product() != PRODUCT {
             return Err(Fault::WrongCore { id: id.0 });
+        }
+        // One that an earlier start left.
+        if self.hardware.read::<Grstctl>().core_soft_reset() {
+            return Err(Fault::ResetStuck);
         }
         let hardware: Ghwcfg2 = self.hardware.read();
         if hardware.architecture() != INTERNAL_DMA {

@@ -86,6 +86,10 @@ pub(crate) struct State<'d> {
     pub(crate) hardware: Core<'d>,
     pub(crate) config: Config,
     pub(crate) phase: Phase,
+    /// When the phase is over, or has failed.
+    pub(crate) phase_end: u64,
+    /// Of the device on the root port.
+    pub(crate) speed: Speed,
     pub(crate) news: News,
     /// A reset of the bus that the stack asked for is under way: its end is no news.
     pub(crate) reset_asked: bool,
@@ -109,6 +113,8 @@ impl<'d> State<'d> {
             hardware,
             config,
             phase: Phase::Identify,
+            phase_end: 0,
+            speed: Speed::Full,
             news: News::default(),
             reset_asked: false,
             event_waker: None,
@@ -200,8 +206,9 @@ impl<'d> State<'d> {
     pub(crate) fn end(&mut self, index: usize, result: Result<usize, TransferError>) {
         let Some(slot) = &mut self.slots[index] else { return };
         slot.effort.deadline = None;
-        slot.activity = match slot.effort.fate {
-            Fate::Cancelled => Activity::Idle,
+        slot.activity = match (slot.effort.fate, result) {
+            (Fate::Cancelled, Ok(length)) => Activity::Kept(length),
+            (Fate::Cancelled, Err(_)) => Activity::Idle,
             _ => Activity::Done(result),
         };
         let confused = matches!(result, Err(TransferError::NoAnswer | TransferError::Babble));

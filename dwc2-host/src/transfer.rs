@@ -58,11 +58,6 @@ pub(crate) enum Next {
 }
 
 impl Transfer {
-    /// A control transfer of `total` bytes of data.
-    pub(crate) fn control(endpoint: &Endpoint, input: bool, total: usize) -> Self {
-        Self { control: true, stage: Stage::Setup, ..Self::data(endpoint, input, total, false) }
-    }
-
     /// A transfer of data alone.
     pub(crate) fn data(endpoint: &Endpoint, input: bool, total: usize, zero_packet: bool) -> Self {
         // An interrupt endpoint gives one packet a poll, and the poll is the request.
@@ -73,6 +68,12 @@ impl Transfer {
         let zero_packet = zero_packet && total > 0 && total.is_multiple_of(endpoint.packet_bytes.into());
         let chunk = total.min(limit);
         Self { stage: Stage::Data, control: false, input, total, moved: 0, chunk, at: 0, zero_packet }
+    }
+
+    /// The same, after a SETUP.
+    #[must_use]
+    pub(crate) fn with_setup(self) -> Self {
+        Self { control: true, stage: Stage::Setup, ..self }
     }
 
     /// It has a SETUP.
@@ -100,6 +101,12 @@ impl Transfer {
         self.moved += self.at;
         self.at = 0;
         self.chunk = (self.total - self.moved).min(endpoint.chunk_bytes());
+    }
+
+    /// The packet that this transfer is for came before it, and lies in the buffer.
+    pub(crate) fn take_kept(&mut self, length: usize) -> Result<usize, TransferError> {
+        self.at = length;
+        if length > self.total { Err(TransferError::BufferOverflow) } else { Ok(length) }
     }
 
     /// What to program next; `toggle` is DATA1.

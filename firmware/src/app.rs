@@ -80,7 +80,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         );
         let _ = writeln!(
             self.board.console(),
-            "arrows tilt, Space freezes, Enter: next scene, W A S D pan, Q E turn, + - zoom, R level"
+            "arrows tilt, Space freezes, Enter: next scene, Tab: next style, V: projection, W A S D pan, Q E turn, + - zoom, R level"
         );
     }
 
@@ -109,12 +109,15 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     /// [`RenderError`] of the renderer, which then wants a reset.
     pub fn draw(&mut self) -> Result<FrameReport, RenderError> {
         let state = self.intake.state();
-        let before = self.viewer.scene();
+        let (before, style_before) = (self.viewer.scene(), self.viewer.style());
         self.viewer.update(&state);
         self.intake.end_frame();
         let scene = self.viewer.scene();
         if scene != before {
             let _ = writeln!(self.board.console(), "scene: {}", scene.name());
+        }
+        if self.viewer.style() != style_before {
+            let _ = writeln!(self.board.console(), "style: {}", self.viewer.style().name());
         }
         let view = self.viewer.view(&state);
         let Self { board, renderer, meshes, frame_memory, .. } = self;

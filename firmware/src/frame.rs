@@ -2,13 +2,15 @@
 
 use core::ops::ControlFlow;
 
-use fpga_regs::packet::FlatTriangle;
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
-use geometry::{FaceLight, ScreenTransform, ScreenVertex, Sink, Transformed};
+use geometry::{
+    Culling, DrawStatistics, Drawn, LitColour, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Unlit,
+};
 
 use crate::link::FrameReport;
-use crate::scene::{MAX_VERTICES, Meshes, Scene};
+use crate::scene::{MAX_VERTICES, Meshes, Model, Scene};
+use crate::style::Style;
 use crate::viewer::View;
 
 /// Words that are gathered before they go to the FPGA: most frames whole.
@@ -17,6 +19,7 @@ const BUFFER_WORDS: usize = 32 * 1024;
 /// Room for a frame in the making.
 pub struct FrameMemory {
     vertices: [ScreenVertex; MAX_VERTICES],
+    lit: [LitColour; MAX_VERTICES],
     words: [u32; BUFFER_WORDS],
 }
 
@@ -24,7 +27,7 @@ impl FrameMemory {
     /// Empty memory, for a static.
     pub const fn new() -> Self {
         let vertex = ScreenVertex { x: 0, y: 0, depth: 0, outside: 0 };
-        Self { vertices: [vertex; MAX_VERTICES], words: [0; BUFFER_WORDS] }
+        Self { vertices: [vertex; MAX_VERTICES], lit: [LitColour::BLACK; MAX_VERTICES], words: [0; BUFFER_WORDS] }
     }
 }
 
@@ -51,7 +54,8 @@ pub fn draw_frame<P: Port, W: Wait>(
     let words_before = renderer.words_pushed();
     renderer.clear(Rgb332::BLACK, DEPTH_FAR)?;
 
-    let mesh = meshes.of(scene);
+    let model = meshes.of(scene);
+    let mesh = &model.mesh;
     let start = ticks();
     let transform = ScreenTransform::new(&view.model_to_clip, mesh);
     let Ok(transformed) = Transformed::new(mesh, &transform, &mut memory.vertices) else {
@@ -59,9 +63,10 @@ pub fn draw_frame<P: Port, W: Wait>(
         return Ok(FrameReport::default());
     };
     let vertices_done = ticks();
-    let light = FaceLight::new(&view.light, &view.model);
+    let light = ObjectLight::new(&view.light, &view.model);
     let mut writer = PacketWriter::new(&mut memory.words, renderer, &mut ticks);
-    let statistics = transformed.draw(&light, scene.culling(), &mut writer);
+    let statistics =
+        draw_styled(&transformed, model, (view.style, scene.culling()), &light, &mut memory.lit, &mut writer);
     let faces_done = (writer.ticks)();
     let pushing = writer.pushing;
     writer.finish()?;
@@ -82,6 +87,31 @@ pub fn draw_frame<P: Port, W: Wait>(
         face_ticks: (faces_done - vertices_done - pushing) as u32,
         checksum: None,
     })
+}
+
+/// Draws a model in a style.
+///
+/// The flat style is what most frames are, and what costs are measured on: it comes first.
+fn draw_styled(
+    transformed: &Transformed<'_>,
+    model: &Model<'_>,
+    (style, culling): (Style, Culling),
+    light: &ObjectLight,
+    lit: &mut [LitColour],
+    sink: &mut impl Sink,
+) -> DrawStatistics {
+    match style {
+        Style::Flat => transformed.draw(light, culling, sink),
+        // The memory is as large as the largest scene's mesh, so there is never too little.
+        Style::Smooth => transformed.draw_smooth(model.looks, light, lit, culling, sink).unwrap_or_default(),
+        Style::Wire => transformed.draw_lines(model.edges, &Style::LINES, sink),
+        Style::HiddenLines => {
+            let hiding = transformed.draw_unlit(Unlit::HIDING, culling, sink);
+            let lines = transformed.draw_lines(model.edges, &Style::LINES, sink);
+            DrawStatistics { drawn: hiding.drawn + lines.drawn, ..hiding }
+        }
+        Style::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, culling, sink),
+    }
 }
 
 /// Gathers packets and pushes them in long bursts.
@@ -125,15 +155,15 @@ impl<'a, P: Port, W: Wait, T: FnMut() -> u64> PacketWriter<'a, P, W, T> {
 
 impl<P: Port, W: Wait, T: FnMut() -> u64> Sink for PacketWriter<'_, P, W, T> {
     #[inline(always)]
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
-        if self.used > BUFFER_WORDS - FlatTriangle::WORDS && self.make_room().is_break() {
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
+        if self.used > BUFFER_WORDS - N && self.make_room().is_break() {
             return None;
         }
         self.buffer[self.used..].first_chunk_mut()
     }
 
     #[inline(always)]
-    fn take(&mut self, _: [&ScreenVertex; 3], _: [u8; 3]) {
-        self.used += FlatTriangle::WORDS;
+    fn take<const N: usize>(&mut self, _: Drawn<'_>) {
+        self.used += N;
     }
 }

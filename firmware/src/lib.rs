@@ -49,6 +49,7 @@ pub mod raspi2b;
 pub mod scene;
 pub mod serial;
 pub mod software_fpga;
+pub mod style;
 #[cfg(all(target_arch = "arm", feature = "usb"))]
 pub mod usb;
 pub mod vexpress_a9;

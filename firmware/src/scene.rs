@@ -1,7 +1,8 @@
 //! What there is to look at.
 
 use fixed::types::I4F28;
-use geometry::{Culling, Face, Mesh, MeshError, Winding, mesh::Position, shapes};
+use geometry::look::looks_of_faces;
+use geometry::{Culling, Face, Mesh, MeshError, VertexLook, Winding, mesh::Position, shapes, wire};
 
 mod plate;
 
@@ -64,6 +65,45 @@ impl Scene {
 pub struct MeshMemory {
     positions: [Position; TORUS_VERTICES],
     faces: [Face; 2 * TORUS_VERTICES],
+    plate: LookMemory<{ plate::POSITIONS.len() }, { 3 * plate::FACES.len() }>,
+    torus: LookMemory<TORUS_VERTICES, { 6 * TORUS_VERTICES }>,
+    counts: [u16; MAX_VERTICES],
+}
+
+/// Room for what smooth shading and lines want of a mesh.
+struct LookMemory<const VERTICES: usize, const CORNERS: usize> {
+    looks: [VertexLook; VERTICES],
+    edges: [[u32; 2]; CORNERS],
+}
+
+impl<const VERTICES: usize, const CORNERS: usize> LookMemory<VERTICES, CORNERS> {
+    const fn new() -> Self {
+        Self { looks: [VertexLook::new([0; 3], [0; 3]); VERTICES], edges: [[0; 2]; CORNERS] }
+    }
+}
+
+/// A mesh with all that any style needs of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Model<'a> {
+    /// The mesh.
+    pub mesh: Mesh<'a>,
+    /// What each vertex looks like.
+    pub looks: &'a [VertexLook],
+    /// Its edges, each once.
+    pub edges: &'a [[u32; 2]],
+}
+
+impl<'a> Model<'a> {
+    fn new<const VERTICES: usize, const CORNERS: usize>(
+        mesh: Mesh<'a>,
+        memory: &'a mut LookMemory<VERTICES, CORNERS>,
+        counts: &mut [u16],
+    ) -> Self {
+        // The memory is as large as the mesh, so both are always made.
+        let looks = looks_of_faces(&mesh, &mut memory.looks, counts).unwrap_or(&[]);
+        let edges = wire::edges(&mesh, &mut memory.edges).unwrap_or(&[]);
+        Self { mesh, looks, edges }
+    }
 }
 
 impl MeshMemory {
@@ -72,6 +112,9 @@ impl MeshMemory {
         Self {
             positions: [[I4F28::ZERO; 3]; TORUS_VERTICES],
             faces: [Face { corners: [0; 3], normal: [0; 3], colour: [0; 3] }; 2 * TORUS_VERTICES],
+            plate: LookMemory::new(),
+            torus: LookMemory::new(),
+            counts: [0; MAX_VERTICES],
         }
     }
 }
@@ -85,8 +128,8 @@ impl Default for MeshMemory {
 /// The scenes' meshes.
 #[derive(Debug, Clone, Copy)]
 pub struct Meshes<'a> {
-    plate: Mesh<'a>,
-    torus: Mesh<'a>,
+    plate: Model<'a>,
+    torus: Model<'a>,
 }
 
 impl<'a> Meshes<'a> {
@@ -104,14 +147,16 @@ impl<'a> Meshes<'a> {
         );
         // The memory is as large as the torus, so it is always made.
         let (positions, faces) = made.unwrap_or((&[], &[]));
+        let plate = Mesh::new(&plate::POSITIONS, &plate::FACES, Winding::Clockwise)?;
+        let torus = Mesh::new(positions, faces, Winding::CounterClockwise)?;
         Ok(Self {
-            plate: Mesh::new(&plate::POSITIONS, &plate::FACES, Winding::Clockwise)?,
-            torus: Mesh::new(positions, faces, Winding::CounterClockwise)?,
+            plate: Model::new(plate, &mut memory.plate, &mut memory.counts),
+            torus: Model::new(torus, &mut memory.torus, &mut memory.counts),
         })
     }
 
     /// Returns a scene's mesh.
-    pub fn of(&self, scene: Scene) -> &Mesh<'a> {
+    pub fn of(&self, scene: Scene) -> &Model<'a> {
         match scene {
             Scene::Plate => &self.plate,
             Scene::Torus | Scene::Tunnel => &self.torus,

@@ -5,6 +5,7 @@ use fixed::types::{I2F14, I2F30, I16F16, I32F32};
 use geometry::{Angle, DirectionalLight, Matrix};
 
 use crate::scene::{Scene, TORUS_RADIUS};
+use crate::style::Style;
 
 /// How the scene is seen in one frame.
 #[derive(Debug, Clone, Copy)]
@@ -15,6 +16,18 @@ pub struct View {
     pub model_to_clip: Matrix,
     /// The light, in world space.
     pub light: DirectionalLight,
+    /// How the mesh is drawn.
+    pub style: Style,
+}
+
+/// How space becomes flat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Projection {
+    /// The farther, the smaller.
+    #[default]
+    Perspective,
+    /// Parallel.
+    Orthographic,
 }
 
 /// How near and far zooming goes, as multiples of the scene's own distance.
@@ -37,12 +50,22 @@ pub struct Viewer {
     spin: Angle,
     zoom: I16F16,
     pan: [I16F16; 2],
+    style: Style,
+    projection: Projection,
 }
 
 impl Viewer {
     /// Returns the viewer at the beginning of a scene.
     pub fn new(scene: Scene) -> Self {
-        Self { scene, travel: Angle::ZERO, spin: Angle::ZERO, zoom: I16F16::ONE, pan: [I16F16::ZERO; 2] }
+        Self {
+            scene,
+            travel: Angle::ZERO,
+            spin: Angle::ZERO,
+            zoom: I16F16::ONE,
+            pan: [I16F16::ZERO; 2],
+            style: Style::default(),
+            projection: Projection::default(),
+        }
     }
 
     /// Returns the scene that is shown.
@@ -50,18 +73,32 @@ impl Viewer {
         self.scene
     }
 
-    /// Takes in a frame's controls. Start and Select change the scene; while the pose is frozen
-    /// nothing moves.
+    /// Returns how meshes are drawn.
+    pub fn style(&self) -> Style {
+        self.style
+    }
+
+    /// Takes in a frame's controls. Start and Select change the scene, Triangle the style, Square
+    /// the projection; while the pose is frozen nothing moves.
     pub fn update(&mut self, state: &ControllerState) {
         let count = Scene::ALL.len();
         let step = usize::from(state.pressed.contains(Button::Start))
             + (count - 1) * usize::from(state.pressed.contains(Button::Select));
         if !step.is_multiple_of(count) {
-            *self = Self::new(Scene::from_index((self.scene.index() + step) % count));
+            *self = self.at_start_of(Scene::from_index((self.scene.index() + step) % count));
             return;
         }
+        if state.pressed.contains(Button::Triangle) {
+            self.style = self.style.next();
+        }
+        if state.pressed.contains(Button::Square) {
+            self.projection = match self.projection {
+                Projection::Perspective => Projection::Orthographic,
+                Projection::Orthographic => Projection::Perspective,
+            };
+        }
         if state.pressed.contains(Button::L3) || state.pressed.contains(Button::R3) {
-            *self = Self { travel: self.travel, ..Self::new(self.scene) };
+            *self = Self { travel: self.travel, ..self.at_start_of(self.scene) };
         }
         if state.frozen {
             return;
@@ -73,6 +110,11 @@ impl Viewer {
         for (pan, stick) in self.pan.iter_mut().zip([state.pan().x, state.pan().y]) {
             *pan = (*pan + rate(stick, PAN_RATE)).clamp(-PAN_LIMIT, PAN_LIMIT);
         }
+    }
+
+    /// The beginning of a scene, drawn in the same way.
+    fn at_start_of(&self, scene: Scene) -> Self {
+        Self { style: self.style, projection: self.projection, ..Self::new(scene) }
     }
 
     /// What the scene moves by itself in a frame, in 2⁻³² turns.
@@ -91,21 +133,26 @@ impl Viewer {
         let (model, view, projection) = match self.scene {
             Scene::Plate => {
                 let model = pitch.times(&roll).times(&Matrix::rotation_y(self.spin));
-                (model, self.orbit(I16F16::lit("3.4"), I16F16::lit("30")), perspective("45", "1", "10"))
+                (model, self.orbit(I16F16::lit("3.4"), I16F16::lit("30")), self.lens(I16F16::lit("3.4")))
             }
             Scene::Torus => {
                 let turning = Matrix::rotation_y(self.spin.plus(self.travel));
                 let model = pitch.times(&roll).times(&turning);
-                (model, self.orbit(I16F16::lit("4"), I16F16::lit("38")), perspective("45", "1", "10"))
+                (model, self.orbit(I16F16::lit("4"), I16F16::lit("38")), self.lens(I16F16::lit("4")))
             }
             Scene::Tunnel => {
                 let view = Matrix::rotation_z(Angle::from_degrees(state.tilt.roll).negated());
                 let view = view.times(&Matrix::rotation_x(Angle::from_degrees(state.tilt.pitch).negated()));
                 let view = view.times(&Matrix::rotation_y(self.spin)).times(&self.ride());
-                (Matrix::IDENTITY, view, perspective("75", "0.1", "4"))
+                (Matrix::IDENTITY, view, perspective("75", I32F32::from_num(0.1), I32F32::from_num(4)))
             }
         };
-        View { model, model_to_clip: projection.times(&view).times(&model), light: light(self.scene, &view) }
+        View {
+            model,
+            model_to_clip: projection.times(&view).times(&model),
+            light: light(self.scene, &view),
+            style: self.style,
+        }
     }
 
     /// The camera above the model, looking down on its middle by `elevation` degrees.
@@ -113,6 +160,28 @@ impl Viewer {
         let [x, y] = self.pan.map(I32F32::from);
         let distance = I32F32::from(distance.saturating_mul(self.zoom));
         Matrix::translation([x, y, -distance]).times(&Matrix::rotation_x(Angle::from_degrees(elevation)))
+    }
+
+    /// The projection of a model that the camera orbits at a distance.
+    fn lens(&self, distance: I16F16) -> Matrix {
+        let distance = I32F32::from(distance.saturating_mul(self.zoom));
+        let (near, far) = match self.style {
+            // As many levels of grey as can be: the model, which is about as large, and little more.
+            Style::DepthGrey => {
+                let reach = I32F32::from_num(1.6);
+                ((distance - reach).max(I32F32::from_num(0.1)), distance + reach)
+            }
+            _ => (I32F32::ONE, I32F32::from_num(10)),
+        };
+        match self.projection {
+            Projection::Perspective => perspective("45", near, far),
+            Projection::Orthographic => {
+                // As large as in perspective, at the orbit's middle: tan 22.5° is 0.4142.
+                let half = distance * I32F32::from_num(0.4142);
+                let wide = half * 4 / 3;
+                Matrix::orthographic((-wide, wide), (-half, half), (near, far))
+            }
+        }
     }
 
     /// The camera inside the tube, looking along it.
@@ -126,10 +195,9 @@ impl Viewer {
 }
 
 /// OpenGL's perspective for the 4:3 screen; the parameters are in degrees and world units.
-fn perspective(field_of_view: &str, near: &str, far: &str) -> Matrix {
-    let number = |text: &str| I32F32::from_str(text).unwrap_or(I32F32::ONE);
-    let angle = Angle::from_degrees(I16F16::from_num(number(field_of_view)));
-    Matrix::perspective(angle, I32F32::from_num(4) / 3, number(near), number(far))
+fn perspective(field_of_view: &str, near: I32F32, far: I32F32) -> Matrix {
+    let angle = Angle::from_degrees(I16F16::from_str(field_of_view).unwrap_or(I16F16::ONE));
+    Matrix::perspective(angle, I32F32::from_num(4) / 3, near, far)
 }
 
 /// The angle that a stick turns by in a frame.
@@ -143,6 +211,7 @@ fn light(scene: Scene, view: &Matrix) -> DirectionalLight {
         Scene::Plate | Scene::Torus => DirectionalLight {
             // A unit vector.
             direction: [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")],
+            colour: [255; 3],
             diffuse: I16F16::lit("0.75"),
             ambient: I16F16::lit("0.25"),
         },
@@ -150,7 +219,7 @@ fn light(scene: Scene, view: &Matrix) -> DirectionalLight {
             // The view's third row: backwards, in world space.
             let [x, y, z, _] = view.rows[2];
             let direction = [x, y, z].map(I2F30::saturating_from_num);
-            DirectionalLight { direction, diffuse: I16F16::lit("0.7"), ambient: I16F16::lit("0.4") }
+            DirectionalLight { direction, colour: [255; 3], diffuse: I16F16::lit("0.7"), ambient: I16F16::lit("0.4") }
         }
     }
 }

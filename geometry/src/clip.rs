@@ -10,19 +10,29 @@ pub(crate) const PLANES: usize = 7;
 /// Corners of a triangle after each plane has added one.
 pub const MAX_CORNERS: usize = 3 + PLANES;
 
+/// A corner of a polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Corner {
+    /// Where it is.
+    pub at: Homogeneous,
+    /// Its colour: red, green, blue, 0…255. It changes linearly along an edge in space.
+    pub colour: [u8; 3],
+}
+
 /// A convex polygon of at most [`MAX_CORNERS`] corners.
 #[derive(Debug, Clone, Copy)]
 pub struct Polygon {
-    corners: [Homogeneous; MAX_CORNERS],
+    corners: [Corner; MAX_CORNERS],
     count: usize,
 }
 
 impl Polygon {
     fn empty() -> Self {
-        Self { corners: [Homogeneous { x: 0, y: 0, z: 0, w: 0 }; MAX_CORNERS], count: 0 }
+        let nowhere = Corner { at: Homogeneous { x: 0, y: 0, z: 0, w: 0 }, colour: [0; 3] };
+        Self { corners: [nowhere; MAX_CORNERS], count: 0 }
     }
 
-    fn push(&mut self, corner: Homogeneous) {
+    fn push(&mut self, corner: Corner) {
         // A plane cuts a convex polygon in two points at most, so there is always room; a
         // polygon that rounding made concave loses a corner rather than the frame.
         if let Some(slot) = self.corners.get_mut(self.count) {
@@ -32,7 +42,7 @@ impl Polygon {
     }
 
     /// Returns the corners in order.
-    pub fn corners(&self) -> &[Homogeneous] {
+    pub fn corners(&self) -> &[Corner] {
         &self.corners[..self.count]
     }
 }
@@ -57,19 +67,19 @@ pub(crate) fn distance(vertex: &Homogeneous, plane: usize) -> i64 {
 ///
 /// The corners keep their order. An edge that two triangles share is cut at the same points in
 /// both, whichever way round they take it, so clipping opens no cracks.
-pub fn clip(triangle: [Homogeneous; 3]) -> Polygon {
+pub fn clip(triangle: [Corner; 3]) -> Polygon {
     let mut polygon = Polygon::empty();
     for corner in triangle {
         polygon.push(corner);
     }
     for plane in 0..PLANES {
-        if polygon.corners().iter().all(|corner| distance(corner, plane) >= 0) {
+        if polygon.corners().iter().all(|corner| distance(&corner.at, plane) >= 0) {
             continue;
         }
         polygon = clip_at(&polygon, plane);
     }
     for corner in &mut polygon.corners[..polygon.count] {
-        *corner = settled(*corner);
+        corner.at = settled(corner.at);
     }
     polygon
 }
@@ -87,15 +97,41 @@ fn clip_at(polygon: &Polygon, plane: usize) -> Polygon {
     let corners = polygon.corners();
     for (index, corner) in corners.iter().enumerate() {
         let next = &corners[(index + 1) % corners.len()];
-        let (here, there) = (distance(corner, plane), distance(next, plane));
+        let (here, there) = (distance(&corner.at, plane), distance(&next.at, plane));
         if here >= 0 {
             inside.push(*corner);
         }
         if (here >= 0) != (there >= 0) {
-            inside.push(intersection(corner, here, next, there));
+            inside.push(cut(corner, here, next, there));
         }
     }
     inside
+}
+
+/// The corner between two others where the distance is 0.
+fn cut(a: &Corner, here: i64, b: &Corner, there: i64) -> Corner {
+    let (to_a, to_b) = (here.abs(), there.abs());
+    let mixed = |channel: usize| {
+        let (a, b) = (i64::from(a.colour[channel]), i64::from(b.colour[channel]));
+        ((a * to_b + b * to_a + (to_a + to_b) / 2) / (to_a + to_b)) as u8
+    };
+    Corner { at: intersection(&a.at, here, &b.at, there), colour: [0, 1, 2].map(mixed) }
+}
+
+/// Returns the part of a line that lies inside all planes, if there is one.
+///
+/// The same, point for point, whichever end comes first.
+pub fn clip_line([mut a, mut b]: [Homogeneous; 2]) -> Option<[Homogeneous; 2]> {
+    for plane in 0..PLANES {
+        let (here, there) = (distance(&a, plane), distance(&b, plane));
+        match (here >= 0, there >= 0) {
+            (true, true) => {}
+            (false, false) => return None,
+            (true, false) => b = intersection(&a, here, &b, there),
+            (false, true) => a = intersection(&a, here, &b, there),
+        }
+    }
+    Some([settled(a), settled(b)])
 }
 
 /// The point between two vertices where the distance is 0.

@@ -6,9 +6,11 @@
 //! | [`matrix`] | model, view and projection, composed in 64 bits |
 //! | [`transform`] | a vertex to screen space: one dot product a row, one reciprocal |
 //! | [`clip`] | homogeneous clipping at the near and far planes and the guard band |
-//! | [`light`] | ambient and directional light, a colour a face |
+//! | [`light`] | ambient and directional light |
+//! | [`look`] | a vertex's normal and colour, and both lit |
 //! | [`setup`] | edge functions, box and depth plane of a screen triangle |
 //! | [`line`] | lines, as packets of very thin triangles |
+//! | [`wire`] | a mesh's edges, each once |
 //! | [`pipeline`] | all of it for a mesh: [`draw`] |
 //! | [`angle`], [`reciprocal`] | sine and cosine; 1/x without a divide instruction |
 //! | [`shapes`] | meshes that the project makes itself |
@@ -29,18 +31,25 @@ pub mod angle;
 pub mod clip;
 pub mod light;
 pub mod line;
+pub mod look;
 pub mod matrix;
 pub mod mesh;
+mod pass;
 pub mod pipeline;
 pub mod reciprocal;
 pub mod setup;
+mod shade;
 pub mod shapes;
 pub mod transform;
+pub mod wire;
 
 pub use angle::Angle;
-pub use light::{DirectionalLight, FaceLight};
+pub use light::{DirectionalLight, ObjectLight};
+pub use line::LineStyle;
+pub use look::{LitColour, VertexLook};
 pub use matrix::{Matrix, Vector};
 pub use mesh::{Face, Mesh, MeshError, Winding};
-pub use pipeline::{CacheTooSmall, Culling, DrawStatistics, Sink, Transformed, draw};
+pub use pipeline::{CacheTooSmall, Culling, DrawStatistics, Drawn, Sink, Transformed, draw};
 pub use setup::ScreenVertex;
+pub use shade::Unlit;
 pub use transform::ScreenTransform;

@@ -1,15 +1,15 @@
 //! A mesh to packets: transform, clip, cull, light, set up.
 
 use core::fmt;
-use core::ops::ControlFlow;
 
-use fpga_regs::packet::{FlatTriangle, Header, Kind};
-
-use crate::clip::{MAX_CORNERS, clip};
-use crate::light::FaceLight;
-use crate::mesh::{Face, Mesh, Position, Winding};
-use crate::setup::{ScreenVertex, doubled_area, last_words, set_up_shape};
-use crate::transform::ScreenTransform;
+use crate::light::ObjectLight;
+use crate::line::LineStyle;
+use crate::look::{LitColour, VertexLook, light_vertices};
+use crate::mesh::{Mesh, Position};
+use crate::pass::Pass;
+use crate::setup::ScreenVertex;
+use crate::shade::{Flat, FlatUneven, Shade, Smooth, Unlit};
+use crate::transform::{Homogeneous, ScreenTransform};
 
 /// Which faces are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -22,19 +22,44 @@ pub enum Culling {
     None,
 }
 
-/// Where set-up triangles go.
+/// Where packets go.
 pub trait Sink {
-    /// Returns room for one more packet, or `None` to end the drawing; a sink that does keeps
-    /// the reason.
+    /// Returns room for one more packet of `N` words, or `None` to end the drawing; a sink that
+    /// does keeps the reason.
     ///
     /// Room that was asked for may go unused: the next one asked for takes its place.
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]>;
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]>;
 
-    /// Takes the packet that was written into the last [`room`](Sink::room).
+    /// Takes the packet that was written into the last [`room`](Sink::room), of the same `N`.
     ///
-    /// `corners` and `colour` are what it was made from, for whoever wants to look on:
-    /// counter-clockwise on screen, and 8 bits a channel.
-    fn take(&mut self, corners: [&ScreenVertex; 3], colour: [u8; 3]);
+    /// `drawn` is what it was made from, for whoever wants to look on.
+    fn take<const N: usize>(&mut self, drawn: Drawn<'_>);
+}
+
+/// What a packet was made from.
+#[derive(Debug, Clone, Copy)]
+pub enum Drawn<'a> {
+    /// A triangle of one colour.
+    Flat {
+        /// Its corners, counter-clockwise on screen.
+        corners: [&'a ScreenVertex; 3],
+        /// Red, green, blue, 0…255.
+        colour: [u8; 3],
+    },
+    /// A triangle whose colour changes.
+    Gouraud {
+        /// Its corners, counter-clockwise on screen.
+        corners: [&'a ScreenVertex; 3],
+        /// The corners' colours: red, green, blue, 0…255.
+        colours: [[u8; 3]; 3],
+    },
+    /// A line.
+    Line {
+        /// Its ends.
+        ends: [&'a ScreenVertex; 2],
+        /// How it looks.
+        style: LineStyle,
+    },
 }
 
 /// What became of a mesh's faces.
@@ -77,7 +102,7 @@ impl core::error::Error for CacheTooSmall {}
 pub fn draw(
     mesh: &Mesh<'_>,
     transform: &ScreenTransform,
-    light: &FaceLight,
+    light: &ObjectLight,
     culling: Culling,
     cache: &mut [ScreenVertex],
     sink: &mut impl Sink,
@@ -110,10 +135,73 @@ impl<'a> Transformed<'a> {
         Ok(Self { mesh, transform, cache, any_outside })
     }
 
-    /// Turns every face into no, one or (if it is clipped) several triangles in `sink`, until
-    /// the sink breaks off.
-    pub fn draw(&self, light: &FaceLight, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
-        let mut pass = Pass { transformed: self, light, culling, sink, drawn: 0, clipped: 0 };
+    /// Turns every face into no, one or (if it is clipped) several triangles of one colour in
+    /// `sink`, until the sink breaks off.
+    pub fn draw(&self, light: &ObjectLight, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
+        match &light.uneven {
+            None => self.draw_as(Flat { light }, culling, sink),
+            Some(light) => self.draw_as(FlatUneven { light }, culling, sink),
+        }
+    }
+
+    /// As [`draw`](Self::draw), but lit at each vertex, with colours that change over the face.
+    ///
+    /// `looks` has one for each of the mesh's vertices; `lit` is room for as many.
+    ///
+    /// # Errors
+    /// [`CacheTooSmall`] when either is shorter than the mesh has vertices; nothing is drawn then.
+    pub fn draw_smooth(
+        &self,
+        looks: &[VertexLook],
+        light: &ObjectLight,
+        lit: &mut [LitColour],
+        culling: Culling,
+        sink: &mut impl Sink,
+    ) -> Result<DrawStatistics, CacheTooSmall> {
+        let needed = self.cache.len();
+        let given = looks.len().min(lit.len());
+        let (Some(looks), Some(lit)) = (looks.get(..needed), lit.get_mut(..needed)) else {
+            return Err(CacheTooSmall { needed, given });
+        };
+        light_vertices(looks, light, lit);
+        Ok(self.draw_as(Smooth { light, looks, lit }, culling, sink))
+    }
+
+    /// As [`draw`](Self::draw), but unlit and in one mode: depth alone, or depth as grey.
+    pub fn draw_unlit(&self, style: Unlit, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
+        self.draw_as(style, culling, sink)
+    }
+
+    /// Draws lines between pairs of the mesh's vertices, cut where they leave what can be seen,
+    /// until the sink breaks off; a pair that names a missing vertex is left out.
+    ///
+    /// [`edges`](crate::wire::edges) gives a mesh's.
+    pub fn draw_lines(&self, edges: &[[u32; 2]], style: &LineStyle, sink: &mut impl Sink) -> DrawStatistics {
+        crate::wire::draw(self, edges, style, sink)
+    }
+
+    /// Returns the mesh.
+    pub(crate) fn mesh(&self) -> &'a Mesh<'a> {
+        self.mesh
+    }
+
+    /// Returns the vertices on the screen.
+    pub(crate) fn cache(&self) -> &'a [ScreenVertex] {
+        self.cache
+    }
+
+    /// Returns a vertex on the screen.
+    pub(crate) fn vertex(&self, index: u32) -> Option<&'a ScreenVertex> {
+        self.cache.get(index as usize)
+    }
+
+    /// Returns a vertex that exists before projection, for clipping.
+    pub(crate) fn homogeneous(&self, index: usize) -> Homogeneous {
+        self.transform.homogeneous(&self.mesh.positions()[index])
+    }
+
+    fn draw_as(&self, shade: impl Shade, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
+        let mut pass = Pass { transformed: self, shade, culling, sink, drawn: 0, clipped: 0 };
         // A mesh wholly inside needs no test for it at every face.
         let _ = match (self.any_outside, culling) {
             (false, Culling::BackFaces) => pass.faces::<false, false>(),
@@ -140,98 +228,4 @@ fn transform_vertices(positions: &[Position], transform: &ScreenTransform, cache
         }
     }
     any_outside
-}
-
-/// One mesh being drawn.
-struct Pass<'a, S> {
-    transformed: &'a Transformed<'a>,
-    light: &'a FaceLight,
-    culling: Culling,
-    sink: &'a mut S,
-    drawn: u32,
-    clipped: u32,
-}
-
-impl<S: Sink> Pass<'_, S> {
-    /// The loop that most faces do not get further than: it is kept small, and what a face that
-    /// shows needs beyond it is a call away.
-    #[inline(never)]
-    fn faces<const ANY_OUTSIDE: bool, const BOTH_SIDES: bool>(&mut self) -> ControlFlow<()> {
-        let Transformed { mesh, cache, .. } = *self.transformed;
-        // A clockwise mesh is a counter-clockwise one with two corners swapped.
-        let (second, third) = match mesh.winding() {
-            Winding::CounterClockwise => (1, 2),
-            Winding::Clockwise => (2, 1),
-        };
-        for face in mesh.faces() {
-            let [i, j, k] = [0, second, third].map(|corner: usize| face.corners[corner] as usize);
-            // `Mesh::new` has checked the corners; told so, the compiler checks no more.
-            if i >= cache.len() || j >= cache.len() || k >= cache.len() {
-                continue;
-            }
-            let (a, b, c) = (&cache[i], &cache[j], &cache[k]);
-            if ANY_OUTSIDE && a.outside | b.outside | c.outside != 0 {
-                // Three corners beyond one plane: nothing of the face is inside.
-                if a.outside & b.outside & c.outside == 0 {
-                    self.clipped_face(face, [0, second, third])?;
-                }
-                continue;
-            }
-            let area = doubled_area([a, b, c]);
-            if area < 0 {
-                self.front_face(a, b, c, face)?;
-            } else if BOTH_SIDES && area > 0 {
-                self.back_face(a, b, c, face)?;
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// Lights and sets up a triangle whose corners go counter-clockwise on screen.
-    #[inline(never)]
-    fn front_face(&mut self, a: &ScreenVertex, b: &ScreenVertex, c: &ScreenVertex, face: &Face) -> ControlFlow<()> {
-        let Some(words) = self.sink.room() else { return ControlFlow::Break(()) };
-        if set_up_shape([a, b, c], last_words(words)).is_some() {
-            let intensity = self.light.intensity(face.normal);
-            words[0] = Header::of(Kind::FlatTriangle).0 | u32::from(intensity.framebuffer_colour(face.colour).0);
-            self.drawn += 1;
-            self.sink.take([a, b, c], intensity.colour(face.colour));
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// A face seen from behind that is to be drawn: turned round, its normal with it.
-    #[cold]
-    #[inline(never)]
-    fn back_face(&mut self, a: &ScreenVertex, b: &ScreenVertex, c: &ScreenVertex, face: &Face) -> ControlFlow<()> {
-        let turned = Face { normal: face.normal.map(i16::saturating_neg), ..*face };
-        self.front_face(a, c, b, &turned)
-    }
-
-    /// Clips a face and draws what is left as a fan.
-    #[cold]
-    #[inline(never)]
-    fn clipped_face(&mut self, face: &Face, order: [usize; 3]) -> ControlFlow<()> {
-        self.clipped += 1;
-        let positions = self.transformed.mesh.positions();
-        let corner = |index: usize| self.transformed.transform.homogeneous(&positions[face.corners[index] as usize]);
-        let polygon = clip(order.map(corner));
-        let mut projected = [ScreenVertex::default(); MAX_CORNERS];
-        for (vertex, corner) in projected.iter_mut().zip(polygon.corners()) {
-            *vertex = corner.project();
-        }
-        let Some((first, rest)) = projected[..polygon.corners().len()].split_first() else {
-            return ControlFlow::Continue(());
-        };
-        for pair in rest.windows(2) {
-            let (second, third) = (&pair[0], &pair[1]);
-            let area = doubled_area([first, second, third]);
-            if area < 0 {
-                self.front_face(first, second, third, face)?;
-            } else if self.culling == Culling::None && area > 0 {
-                self.back_face(first, second, third, face)?;
-            }
-        }
-        ControlFlow::Continue(())
-    }
 }

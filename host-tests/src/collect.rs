@@ -6,7 +6,7 @@ use fpga_regs::packet::{FlatTriangle, Header, Packet};
 use geometry::mesh::Position;
 use geometry::setup::{doubled_area, set_up};
 use geometry::{
-    Culling, DrawStatistics, Face, FaceLight, Matrix, Mesh, ScreenTransform, ScreenVertex, Sink, Transformed, Winding,
+    Culling, DrawStatistics, Face, Matrix, Mesh, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Winding,
 };
 
 /// A triangle that went to the sink.
@@ -19,22 +19,29 @@ pub struct Drawn {
 }
 
 /// All triangles that went to the sink, in order.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Collector {
     /// The triangles.
     pub drawn: Vec<Drawn>,
-    room: [u32; FlatTriangle::WORDS],
+    room: [u32; Packet::MAX_WORDS],
+}
+
+impl Default for Collector {
+    fn default() -> Self {
+        Self { drawn: Vec::new(), room: [0; Packet::MAX_WORDS] }
+    }
 }
 
 impl Sink for Collector {
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
-        self.room = [0; FlatTriangle::WORDS];
-        Some(&mut self.room)
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
+        self.room = [0; Packet::MAX_WORDS];
+        self.room.first_chunk_mut()
     }
 
-    fn take(&mut self, corners: [&ScreenVertex; 3], _: [u8; 3]) {
+    fn take<const N: usize>(&mut self, drawn: geometry::Drawn<'_>) {
+        let geometry::Drawn::Flat { corners, .. } = drawn else { panic!("{drawn:?} was not asked for") };
         let corners = corners.map(|corner| *corner);
-        match Packet::decode(Header(self.room[0]), &self.room[1..]) {
+        match Packet::decode(Header(self.room[0]), &self.room[1..N]) {
             Ok(Packet::FlatTriangle(triangle)) => self.drawn.push(Drawn { triangle, corners }),
             other => panic!("{corners:?} came out as {other:?}"),
         }
@@ -58,7 +65,7 @@ pub fn draw_faces(
     let transform = ScreenTransform::new(model_to_clip, &mesh);
     let mut cache = vec![ScreenVertex::default(); positions.len()];
     let mut sink = Collector::default();
-    let statistics = geometry::draw(&mesh, &transform, &FaceLight::FULL, culling, &mut cache, &mut sink)
+    let statistics = geometry::draw(&mesh, &transform, &ObjectLight::FULL, culling, &mut cache, &mut sink)
         .expect("the cache is as long as the mesh");
     (sink.drawn, statistics)
 }

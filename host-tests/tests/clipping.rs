@@ -7,7 +7,7 @@
 use fpga_regs::packet::{Clear, FlatTriangle, TriangleShape};
 use fpga_regs::registers::Register;
 use fpga_regs::screen::{DEPTH_FAR, GUARD_BAND, HEIGHT, PacketDepth, Rgb332, WIDTH};
-use geometry::clip::clip;
+use geometry::clip::{Corner, clip};
 use geometry::mesh::Position;
 use geometry::transform::{Homogeneous, SMALLEST_W, doubled_guard_band};
 use geometry::{Culling, Winding};
@@ -287,8 +287,9 @@ fn every_corner_that_clipping_leaves_is_inside_all_planes() {
             let z = if rng.once_in(3) { w / 2 + rng.within(-3, 3) } else { z };
             Homogeneous { x, y, z, w }
         });
-        for corner in clip(triangle).corners() {
-            let Homogeneous { x, y, z, w } = *corner;
+        for corner in clip(triangle.map(|at| Corner { at, colour: [7; 3] })).corners() {
+            let Corner { at: Homogeneous { x, y, z, w }, colour } = *corner;
+            assert_eq!(colour, [7; 3], "mixed of one colour");
             let guard = doubled_guard_band(w);
             let inside = w >= SMALLEST_W && z >= 0 && 2 * z <= w && 2 * x.abs() <= guard && 2 * y.abs() <= guard;
             assert!(inside, "{corner:?} is left of {triangle:?}, guard band {guard}");

@@ -13,7 +13,7 @@ use host_tests::twin::exact_position;
 
 fn with_mesh<R>(scene: Scene, look: impl FnOnce(&Mesh<'_>) -> R) -> R {
     let mut memory = Box::<MeshMemory>::default();
-    look(Meshes::new(&mut memory).expect("the built-in meshes are well-formed").of(scene))
+    look(&Meshes::new(&mut memory).expect("the built-in meshes are well-formed").of(scene).mesh)
 }
 
 /// Every edge has a face on each side, which take it in opposite directions.

@@ -6,7 +6,7 @@ use std::panic::{RefUnwindSafe, UnwindSafe, catch_unwind};
 use fixed::types::{I2F30, I4F28, I16F16, I32F32};
 use fpga_regs::screen::GUARD_BAND;
 use geometry::mesh::Position;
-use geometry::{Angle, Culling, DirectionalLight, FaceLight, Matrix, Vector, Winding};
+use geometry::{Angle, Culling, DirectionalLight, Matrix, ObjectLight, Vector, Winding};
 use host_tests::collect::{Drawn, draw_faces};
 use host_tests::rng::Rng;
 use host_tests::twin::{Twin, position};
@@ -194,10 +194,10 @@ fn a_light_in_any_space_is_no_more_than_full() {
             let direction = [(); 3].map(|()| I2F30::from_bits(rng.word() as i32));
             let [diffuse, ambient] = [(); 2].map(|()| I16F16::from_bits(rng.word() as i32));
             let normal = [(); 3].map(|()| rng.pick(&[i16::MIN, i16::MAX, 0, 16_384]));
-            (DirectionalLight { direction, diffuse, ambient }, extreme_matrix(rng), normal)
+            (DirectionalLight { direction, colour: [255; 3], diffuse, ambient }, extreme_matrix(rng), normal)
         },
         |(light, model, normal)| {
-            let [red, green, blue] = FaceLight::new(&light, &model).intensity(normal).colour([255, 100, 0]);
+            let [red, green, blue] = ObjectLight::new(&light, &model).intensity(normal).colour([255, 100, 0]);
             assert!(red >= green && green <= 100 && blue == 0);
         },
     );

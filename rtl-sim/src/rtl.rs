@@ -1,6 +1,10 @@
 //! The verilated device and its clocks.
 
-use std::ffi::c_void;
+use std::ffi::{CString, c_void};
+use std::fs::File;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::{error, fmt, io, ptr};
 
 use fpga_regs::Port;
 use fpga_regs::registers::{Capabilities, Register, Status};
@@ -11,11 +15,36 @@ use crate::memories::Memories;
 /// The numbers of pixel units that there are builds for.
 pub const UNITS: [u32; 4] = [1, 2, 4, 8];
 
+/// Why a wave cannot be written.
+#[derive(Debug)]
+pub enum WaveError {
+    /// This build has no waves.
+    NotBuiltIn,
+    /// The file cannot be written.
+    File {
+        /// Which.
+        file: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+}
+
+impl fmt::Display for WaveError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotBuiltIn => out.write_str("this build writes no waves: build rtl-sim with --features waves"),
+            Self::File { file, error } => write!(out, "cannot write {}: {error}", file.display()),
+        }
+    }
+}
+
+impl error::Error for WaveError {}
+
 /// A device in simulation, just out of reset. Its memories hold anything until they are cleared.
 ///
 /// The bus clock runs while something is done on the bus and in [`clock`](Rtl::clock);
-/// VGA's clock stands still, but for [`set_vga_ratio`](Rtl::set_vga_ratio) and
-/// [`set_hurry`](Rtl::set_hurry).
+/// VGA's clock stands still, but for [`set_vga_ratio`](Rtl::set_vga_ratio) and while a swap waits
+/// with [`set_hurry`](Rtl::set_hurry).
 pub struct Rtl {
     calls: &'static Calls,
     sim: *mut c_void,
@@ -57,8 +86,9 @@ impl Rtl {
         unsafe { (self.calls.vga_ratio)(self.sim, ratio) }
     }
 
-    /// Says whether VGA's clock runs 64 times as fast as the bus clock while a swap waits, so that
-    /// it comes soon. It does unless told otherwise.
+    /// Says whether VGA is moved to the vertical blank when a swap has waited for it for 1,500 bus
+    /// clocks. It is unless told otherwise: a frame's 420,000 VGA clocks take far longer than its
+    /// drawing. The next frame on the pins that begins after that is whole again.
     pub fn set_hurry(&mut self, on: bool) {
         // Safety: as above.
         unsafe { (self.calls.hurry)(self.sim, on.into()) }
@@ -152,6 +182,29 @@ impl Rtl {
             (self.calls.memory)(self.sim, first.as_mut_ptr(), second.as_mut_ptr(), memories.depths.as_mut_ptr());
         }
         memories
+    }
+
+    /// Has everything that happens from one bus clock up to another written to an FST file, for
+    /// GTKWave or Surfer. A bus clock takes 20 ns there, so clock 1,000 is at 20 µs.
+    ///
+    /// The file is whole when the device has passed the last clock, after [`end_wave`](Rtl::end_wave),
+    /// or when the device has been dropped.
+    ///
+    /// # Errors
+    /// [`WaveError`] when waves are not built in, or the file cannot be written.
+    pub fn record_wave(&mut self, file: &Path, clocks: Range<u64>) -> Result<(), WaveError> {
+        let refused = |error| WaveError::File { file: file.into(), error };
+        File::create(file).map_err(refused)?;
+        let name = CString::new(file.as_os_str().as_encoded_bytes()).map_err(|error| refused(error.into()))?;
+        // Safety: as above; the simulation copies the name.
+        let built_in = unsafe { (self.calls.wave)(self.sim, name.as_ptr(), clocks.start, clocks.end) };
+        if built_in == 0 { Err(WaveError::NotBuiltIn) } else { Ok(()) }
+    }
+
+    /// Ends the recording of a wave, if there is one.
+    pub fn end_wave(&mut self) {
+        // Safety: as above; without a name nothing is opened.
+        unsafe { (self.calls.wave)(self.sim, ptr::null(), 0, 0) };
     }
 
     /// Gives VGA one clock and returns its pins, as [`crate::vga::Pins`] reads them.

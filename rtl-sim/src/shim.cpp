@@ -1,10 +1,16 @@
 // One verilated build of the device behind a C interface; compiled once for each number of pixel
-// units, with UNITS, MODEL (the class) and HEADER given on the command line.
+// units, with UNITS, MODEL (the class), HEADER and ROOT_HEADER defined by build.rs.
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include HEADER
+#include ROOT_HEADER
 #include "verilated.h"
+#if VM_TRACE
+#include "verilated_fst_c.h"
+#endif
 
 #define JOIN2(a, b, c) a##b##c
 #define JOIN(a, b, c) JOIN2(a, b, c)
@@ -16,13 +22,20 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 constexpr int kTileWidth = UNITS >= 8 ? 4 : UNITS >= 2 ? 2 : 1;
 constexpr int kTileHeight = UNITS >= 4 ? 2 : 1;
-// A frame then takes 6,563 bus clocks, a line 12.
-constexpr uint32_t kHurry = 64 << 16;
+// Bus clocks that a swap waits before VGA is moved on: more words than the FIFO holds may come.
+constexpr uint64_t kHurryAfter = 1500;
+// VGA clocks that bring VGA from a line's end into the next line.
+constexpr uint64_t kNextLine = 16;
+// Where things stand in a bus clock of a wave, in picoseconds: 50 MHz, and a VGA clock that comes with it.
+constexpr uint64_t kBusClock = 20000;
+constexpr uint64_t kBusRises = 2000;
+constexpr uint64_t kBusFalls = 10000;
+constexpr uint64_t kVgaHalf = 3000;
 
 struct Sim {
   VerilatedContext context;
-  // No pool of threads that would only wait.
-  bool one_thread = (context.threads(1), true);
+  // No pool of threads that would only wait; all signals are kept where waves are built in.
+  bool one_thread = (context.threads(1), context.traceEverOn(VM_TRACE), true);
   MODEL model{&context, "halfspace"};
   uint64_t clocks = 0;
   uint64_t vga_clocks = 0;
@@ -30,27 +43,72 @@ struct Sim {
   // VGA clocks a bus clock, in 1/65,536.
   uint32_t vga_ratio = 0;
   uint32_t vga_phase = 0;
-  // Whether VGA's clock runs fast while a swap waits, so that it comes soon.
+  // Whether VGA is moved to the vertical blank when a swap waits for it, so that it comes soon.
   bool hurry = true;
+  uint64_t swap_waits = 0;
+
+#if VM_TRACE
+  VerilatedFstC wave;
+  bool wave_known = false;
+  std::string wave_file;
+  uint64_t wave_from = 0, wave_to = 0;
+  uint64_t wave_time = 0;
+
+  void wave_window() {
+    const bool inside = clocks >= wave_from && clocks < wave_to;
+    if (inside && !wave.isOpen()) wave.open(wave_file.c_str());
+    if (!inside && wave.isOpen()) wave.close();
+  }
+  void show_at(uint64_t time) {
+    wave_time = time;
+    if (wave.isOpen()) wave.dump(time);
+  }
+#else
+  static constexpr uint64_t wave_time = 0;
+  void wave_window() {}
+  void show_at(uint64_t) {}
+#endif
 
   void vga_clock() {
     model.vga_clk_i = 1;
     model.eval();
+    show_at(wave_time + kVgaHalf);
     model.vga_clk_i = 0;
     model.eval();
+    show_at(wave_time + kVgaHalf);
     vga_clocks++;
   }
 
   // Outputs are valid, for the inputs as they stand, before and after.
   void clock() {
+    wave_window();
+    const uint64_t start = std::max(clocks * kBusClock, wave_time + 1);
+    show_at(start);
     model.clk_i = 1;
     model.eval();
+    show_at(start + kBusRises);
     model.clk_i = 0;
     model.eval();
+    show_at(start + kBusFalls);
     clocks++;
     tiles += model.debug_tile_o;
-    vga_phase += hurry && model.debug_swap_pending_o ? kHurry : vga_ratio;
-    for (; vga_phase >= 65536; vga_phase -= 65536) vga_clock();
+    for (vga_phase += vga_ratio; vga_phase >= 65536; vga_phase -= 65536) vga_clock();
+    hurry_on();
+  }
+
+  // Shows a swap that waits for the blank a new one: past the frame's start, then from the last visible line.
+  void hurry_on() {
+    swap_waits = hurry && model.debug_swap_waits_o ? swap_waits + 1 : 0;
+    if (swap_waits < kHurryAfter) return;
+    if (swap_waits == kHurryAfter) to_end_of_line(523);
+    if (swap_waits == kHurryAfter + kNextLine) to_end_of_line(479);
+    vga_clock();
+  }
+
+  void to_end_of_line(uint32_t line) {
+    auto* root = model.rootp;
+    root->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__x_q = 796;
+    root->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q = line;
   }
 };
 
@@ -77,7 +135,25 @@ Sim* NAME(_new)() {
   return sim;
 }
 
+// Writes what happens from one bus clock to another to a file, or with none ends what is being
+// written; returns whether that is built in.
+uint32_t NAME(_wave)(Sim* sim, const char* file, uint64_t from, uint64_t to) {
+#if VM_TRACE
+  sim->wave.close();
+  // The model must know the wave before it is opened, once.
+  if (file && !sim->wave_known) sim->model.trace(&sim->wave, 99);
+  sim->wave_known |= file != nullptr;
+  sim->wave_file = file ? file : "";
+  sim->wave_from = from;
+  sim->wave_to = to;
+#endif
+  return VM_TRACE;
+}
+
 void NAME(_free)(Sim* sim) {
+#if VM_TRACE
+  sim->wave.close();
+#endif
   sim->model.final();
   delete sim;
 }

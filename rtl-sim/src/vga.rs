@@ -94,6 +94,11 @@ impl Frame {
         Ok(Self { pixels })
     }
 
+    /// Returns red, green and blue of every pixel, row 0 first, each row from left to right.
+    pub fn pixels(&self) -> &[[u8; 3]] {
+        &self.pixels
+    }
+
     /// Returns a pixel's red, green and blue.
     pub fn pixel(&self, x: usize, y: usize) -> [u8; 3] {
         self.pixels[y * LINE[0] + x]

@@ -50,7 +50,7 @@ fn unknown_addresses_read_zero_and_read_only_registers_ignore_writes() {
         }
         pair.compare("after writes to read-only registers");
         pair.write(Register::LowWater, 0xdead_beef);
-        pair.write(Register::Control, !2);
+        pair.write(Register::Control, !Control::default().with_reset(true).0);
         pair.compare_registers("after writes of ones");
     }
 }

@@ -38,6 +38,7 @@ module halfspace_sim
     output logic                             debug_busy_o,
     output logic [15:0]                      debug_free_o,
     output logic                             debug_swap_pending_o,
+    output logic                             debug_swap_waits_o,  // for the vertical blank alone
     output logic                             debug_tile_o
 );
 
@@ -58,6 +59,7 @@ module halfspace_sim
   assign debug_busy_o         = u_device.status.busy;
   assign debug_free_o         = u_device.status.fifo_free;
   assign debug_swap_pending_o = u_device.status.swap_pending;
+  assign debug_swap_waits_o   = u_device.swap_valid && u_device.drained;
   assign debug_tile_o         = u_device.tile_valid;
 
 endmodule

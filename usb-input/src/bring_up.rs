@@ -1,203 +1,280 @@
-//! From a device's reset to the moment when it can be read.
+//! From a device's reset to the moment when it can be served.
 
 use embassy_usb_driver::Speed;
-use embassy_usb_driver::host::{PipeError, UsbHostAllocator};
 use heapless::String;
 
-use crate::descriptor::{self, Configuration, Device, Endpoint, HidInterface, STRING_BYTES};
+use crate::descriptor::{self, Configuration, Device, HidInterface, STRING_BYTES};
 use crate::hid::{Form, Layout};
-use crate::link::Link;
+use crate::hub::HubTalk;
+use crate::input::Input;
+use crate::link::{Link, Next};
+use crate::mailbox::{Outcome, TransferError};
 use crate::reader::Reader;
 use crate::setup::{Setup, descriptor as kind};
-use crate::timing::{ADDRESS_RECOVERY_US, POWER_GOOD_UNIT_US, RESET_RECOVERY_US};
-use crate::{Clock, Fault, Identity, Kind, Step, TEXT_BYTES, dualshock3, dualshock4};
+use crate::talk::Function;
+use crate::timing::{ADDRESS_RECOVERY_US, READY_TIMEOUT_US, RESET_RECOVERY_US};
+use crate::{Fault, Identity, Kind, Memory, Step, TEXT_BYTES, dualshock3, dualshock4};
 
-/// Bytes of a configuration or report descriptor that are read; what is beyond is not seen.
-const DESCRIPTOR_BYTES: usize = 512;
 const CLASS_HUB: u8 = 9;
 
-/// What a device is, and how to go on with it.
-pub(crate) struct Ready {
-    pub(crate) identity: Identity,
-    pub(crate) function: Function,
-}
-
-/// How to go on with a device.
-#[expect(clippy::large_enum_variant, reason = "there is no heap to put the larger one on")]
-#[derive(Clone, Copy)]
-pub(crate) enum Function {
-    Hub(Hub),
-    Input {
-        kind: Kind,
-        hid: HidInterface,
-        reader: Reader,
-    },
-    /// Leave it alone.
-    None,
-}
-
-/// What a hub tells of itself.
-#[derive(Clone, Copy)]
-pub(crate) struct Hub {
-    pub(crate) ports: u8,
-    pub(crate) power_good_us: u64,
-    pub(crate) status: Endpoint,
-}
-
-impl Function {
-    pub(crate) fn kind(&self) -> Option<Kind> {
-        match self {
-            Self::Hub(hub) => Some(Kind::Hub { ports: hub.ports }),
-            Self::Input { kind, .. } => Some(*kind),
-            Self::None => None,
-        }
-    }
-}
-
-/// Gives the device its address, learns what it is and makes it ready. It has just been reset.
-pub(crate) async fn bring_up<'d, A: UsbHostAllocator<'d>, K: Clock>(link: &mut Link<'_, A, K>) -> Result<Ready, Fault> {
-    link.bus.sleep(RESET_RECOVERY_US).await;
-    let device = address(link).await?;
-    let mut buffer = [0; DESCRIPTOR_BYTES];
-    let configuration = configuration(link, &mut buffer).await?;
-    let (maker, name) = names(link, &device).await;
-    let class = if device.class == 0 { configuration.class } else { device.class };
-    let Device { vendor, product, .. } = device;
-    let identity = Identity { vendor, product, class, speed: link.route.speed, maker, name };
-    let is_hub = device.class == CLASS_HUB && link.route.speed != Speed::Low;
-    let function = match configuration.hub {
-        Some(status) if is_hub => {
-            link.write(Step::Configuration, Setup::configuration(configuration.value), &[]).await?;
-            Function::Hub(hub(link, status).await?)
-        }
-        _ if configuration.hid.is_empty() => Function::None,
-        _ => {
-            link.write(Step::Configuration, Setup::configuration(configuration.value), &[]).await?;
-            input(link, &identity, &configuration.hid, &mut buffer).await?
-        }
-    };
-    Ok(Ready { identity, function })
-}
-
-/// Gives the device its address and reads its descriptor.
-async fn address<'d, A: UsbHostAllocator<'d>, K: Clock>(link: &mut Link<'_, A, K>) -> Result<Device, Fault> {
-    let doing = Step::DeviceDescriptor;
-    let setup = Setup::descriptor(kind::DEVICE, 0, 0);
-    let mut bytes = [0; Device::LENGTH];
-    let count = link.read(doing, setup, &mut bytes[..Device::FIRST_BYTES]).await?;
-    link.packet = Device::packet(&bytes[..count], link.route.speed).ok_or(Fault::Descriptor { doing })?;
-    let address = link.slot.address();
-    link.write(Step::Address, Setup::address(address), &[]).await?;
-    link.address = address;
-    link.bus.sleep(ADDRESS_RECOVERY_US).await;
-    let count = link.read(doing, setup, &mut bytes).await?;
-    Device::parse(&bytes[..count]).ok_or(Fault::Descriptor { doing })
-}
-
-async fn configuration<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    buffer: &mut [u8],
-) -> Result<Configuration, Fault> {
-    let doing = Step::ConfigurationDescriptor;
-    let setup = Setup::descriptor(kind::CONFIGURATION, 0, 0);
-    let count = link.read(doing, setup, &mut buffer[..Configuration::HEADER_LENGTH]).await?;
-    let total = Configuration::total_length(&buffer[..count]).ok_or(Fault::Descriptor { doing })?;
-    let wanted = total.min(buffer.len());
-    let count = link.read(doing, setup, &mut buffer[..wanted]).await?;
-    Configuration::parse(&buffer[..count]).ok_or(Fault::Descriptor { doing })
-}
-
-/// Reads the device's maker and name; a device that will not tell has none.
-async fn names<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    device: &Device,
-) -> (String<TEXT_BYTES>, String<TEXT_BYTES>) {
-    let mut names = [String::new(), String::new()];
-    if (device.maker, device.name) != (0, 0)
-        && let Some(language) =
-            string(link, 0, 0).await.and_then(|(bytes, count)| descriptor::language(&bytes[..count]))
-    {
-        for (name, index) in names.iter_mut().zip([device.maker, device.name]) {
-            if index != 0
-                && let Some((bytes, count)) = string(link, index, language).await
-            {
-                *name = descriptor::text(&bytes[..count]);
-            }
-        }
-    }
-    names.into()
-}
-
-async fn string<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    index: u8,
+/// What is known of a device so far, and what is to be learned next.
+#[derive(Debug)]
+pub(crate) struct BringUp {
+    stage: Stage,
+    deadline_us: u64,
+    device: Device,
     language: u16,
-) -> Option<([u8; STRING_BYTES], usize)> {
-    let mut bytes = [0; STRING_BYTES];
-    let setup = Setup::descriptor(kind::STRING, index, language);
-    let count = link.read(Step::DeviceDescriptor, setup, &mut bytes).await.ok()?;
-    Some((bytes, count))
+    maker: String<TEXT_BYTES>,
+    name: String<TEXT_BYTES>,
+    configuration: Configuration,
+    /// Which of the HID interfaces is looked at.
+    hid: usize,
+    found: Found,
 }
 
-/// Reads the hub descriptor (USB 2.0 §11.23.2.1).
-async fn hub<'d, A: UsbHostAllocator<'d>, K: Clock>(link: &Link<'_, A, K>, status: Endpoint) -> Result<Hub, Fault> {
-    let doing = Step::HubDescriptor;
-    let mut bytes = [0; 9];
-    let count = link.read(doing, Setup::hub_descriptor(), &mut bytes).await?;
-    match bytes[..count] {
-        [7..=255, kind::HUB, ports @ 1..=255, _, _, power_good, _, ..] => {
-            Ok(Hub { ports, power_good_us: u64::from(power_good) * POWER_GOOD_UNIT_US, status })
-        }
-        _ => Err(Fault::Descriptor { doing }),
-    }
+/// What is asked of a device, one after the other, for those that a device has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    /// After its reset.
+    Recovery,
+    FirstBytes,
+    Address,
+    AddressRecovery,
+    Device,
+    /// The configuration descriptor's own part.
+    Head,
+    Configuration {
+        length: usize,
+    },
+    Languages,
+    Maker,
+    Name,
+    Configure,
+    HubDescriptor,
+    /// A DualShock 3's.
+    Wake(dualshock3::Wake),
+    /// A boot keyboard's.
+    Protocol,
+    ReportDescriptor,
+    /// A keyboard's: to report changes alone.
+    Quiet,
+    Ready,
 }
 
-/// Finds what a HID device is good for, and makes it ready.
-async fn input<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    identity: &Identity,
-    interfaces: &[HidInterface],
-    buffer: &mut [u8],
-) -> Result<Function, Fault> {
-    let product = (identity.vendor, identity.product);
-    if let (dualshock3::PRODUCT, [hid, ..]) = (product, interfaces) {
-        dualshock3::wake(link, hid, identity).await?;
-        return Ok(Function::Input { kind: Kind::DualShock3, hid: *hid, reader: Reader::DualShock3 });
-    }
-    for &hid in interfaces.iter().filter(|hid| hid.boot_keyboard) {
-        if accepts(link.write(Step::Protocol, Setup::boot_protocol(hid.number), &[]).await)? {
-            accepts(link.write(Step::Protocol, Setup::report_changes_only(hid.number), &[]).await)?;
-            return Ok(Function::Input { kind: Kind::BootKeyboard, hid, reader: Reader::BootKeyboard });
+/// What the device turned out to be.
+#[expect(clippy::large_enum_variant, reason = "there is no heap to put the larger one on")]
+#[derive(Debug, Clone, Copy)]
+enum Found {
+    Nothing,
+    Hub { ports: u8, power_good: u8 },
+    Input(Kind, Reader),
+}
+
+impl BringUp {
+    pub(crate) fn new(now_us: u64) -> Self {
+        Self {
+            stage: Stage::Recovery,
+            deadline_us: now_us + READY_TIMEOUT_US,
+            device: Device::default(),
+            language: 0,
+            maker: String::new(),
+            name: String::new(),
+            configuration: Configuration::default(),
+            hid: 0,
+            found: Found::Nothing,
         }
     }
-    for &hid in interfaces {
-        let wanted = usize::from(hid.report_descriptor).min(buffer.len());
-        let count = match link
-            .read(Step::ReportDescriptor, Setup::report_descriptor(hid.number), &mut buffer[..wanted])
-            .await
-        {
-            Err(Fault::Transfer { error: PipeError::Stall, .. }) => continue,
-            other => other?,
-        };
-        let Some(layout) = Layout::parse(&buffer[..count]) else { continue };
-        let (kind, reader) = match layout.form {
-            Form::Keyboard(_) => {
-                accepts(link.write(Step::Protocol, Setup::report_changes_only(hid.number), &[]).await)?;
-                (Kind::ReportKeyboard, Reader::Layout(layout))
+
+    /// When it takes too long.
+    pub(crate) const fn deadline_us(&self) -> u64 {
+        self.deadline_us
+    }
+
+    /// Takes what the device is, once that is known.
+    pub(crate) fn take_ready(&mut self, link: &Link) -> Option<(Identity, Function)> {
+        if self.stage != Stage::Ready {
+            return None;
+        }
+        let Device { vendor, product, class, .. } = self.device;
+        let class = if class == 0 { self.configuration.class } else { class };
+        let (maker, name) = (self.maker.clone(), self.name.clone());
+        let identity = Identity { vendor, product, class, speed: link.route.speed, maker, name };
+        let function = match (self.found, self.configuration.hub, self.interface()) {
+            (Found::Hub { ports, power_good }, Some(status), _) => {
+                Function::Hub(HubTalk::new(ports, power_good, status))
             }
-            Form::Pad(_) if dualshock4::PRODUCTS.contains(&product) => (Kind::DualShock4, Reader::DualShock4(layout)),
-            Form::Pad(_) => (Kind::Gamepad, Reader::Layout(layout)),
+            (Found::Input(kind, reader), _, Some(hid)) => Function::Input(kind, Input::new(hid, reader)),
+            _ => Function::None,
         };
-        return Ok(Function::Input { kind, hid, reader });
+        Some((identity, function))
     }
-    Ok(Function::None)
+
+    /// The HID interface that is looked at.
+    fn interface(&self) -> Option<&HidInterface> {
+        self.configuration.hid.get(self.hid)
+    }
+
+    /// Says what is next.
+    pub(crate) fn next(&mut self, link: &mut Link, memory: &Memory) -> Next {
+        let number = self.interface().map_or(0, |hid| hid.number);
+        let (doing, setup, length) = match self.stage {
+            Stage::Recovery => {
+                self.stage = Stage::FirstBytes;
+                return Next::Until(memory.now_us() + RESET_RECOVERY_US);
+            }
+            Stage::AddressRecovery => {
+                self.stage = Stage::Device;
+                return Next::Until(memory.now_us() + ADDRESS_RECOVERY_US);
+            }
+            Stage::Wake(wake) => {
+                return self.interface().map_or(Next::Nothing, |hid| wake.next(link, memory, hid));
+            }
+            Stage::Ready => return Next::Nothing,
+            Stage::FirstBytes => (Step::DeviceDescriptor, get(kind::DEVICE, 0, 0), Device::FIRST_BYTES),
+            Stage::Address => (Step::Address, Setup::address(link.slot.address()), 0),
+            Stage::Device => (Step::DeviceDescriptor, get(kind::DEVICE, 0, 0), Device::LENGTH),
+            Stage::Head => {
+                (Step::ConfigurationDescriptor, get(kind::CONFIGURATION, 0, 0), Configuration::HEADER_LENGTH)
+            }
+            Stage::Configuration { length } => (Step::ConfigurationDescriptor, get(kind::CONFIGURATION, 0, 0), length),
+            Stage::Languages => (Step::DeviceDescriptor, get(kind::STRING, 0, 0), STRING_BYTES),
+            Stage::Maker => (Step::DeviceDescriptor, get(kind::STRING, self.device.maker, self.language), STRING_BYTES),
+            Stage::Name => (Step::DeviceDescriptor, get(kind::STRING, self.device.name, self.language), STRING_BYTES),
+            Stage::Configure => (Step::Configuration, Setup::configuration(self.configuration.value), 0),
+            Stage::HubDescriptor => (Step::HubDescriptor, Setup::hub_descriptor(), HubTalk::DESCRIPTOR_LENGTH),
+            Stage::Protocol => (Step::Protocol, Setup::boot_protocol(number), 0),
+            Stage::ReportDescriptor => {
+                let length = self.interface().map_or(0, |hid| hid.report_descriptor.into());
+                (Step::ReportDescriptor, Setup::report_descriptor(number), length)
+            }
+            Stage::Quiet => (Step::Protocol, Setup::report_changes_only(number), 0),
+        };
+        link.read(memory, doing, setup, length)
+    }
+
+    /// Takes the answer to what was asked.
+    pub(crate) fn answered(&mut self, link: &mut Link, memory: &Memory, answer: Outcome) -> Result<(), Fault> {
+        let data = link.data(memory, answer.unwrap_or(0));
+        match self.stage {
+            // What a device will not tell of its names, it has not.
+            Stage::Languages => self.language = descriptor::language(&data).unwrap_or(0),
+            Stage::Maker => self.maker = descriptor::text(&data),
+            Stage::Name => self.name = descriptor::text(&data),
+            Stage::Wake(wake) => {
+                if wake.has_to_succeed() {
+                    unless_refused(link, answer)?;
+                }
+            }
+            Stage::Protocol | Stage::Quiet | Stage::ReportDescriptor => {
+                unless_refused(link, answer)?;
+            }
+            _ => {
+                link.succeeded(answer)?;
+            }
+        }
+        self.stage = match self.stage {
+            Stage::FirstBytes => {
+                link.packet = Device::packet(&data, link.route.speed).ok_or(link.nonsense())?;
+                Stage::Address
+            }
+            Stage::Address => {
+                link.address = link.slot.address();
+                Stage::AddressRecovery
+            }
+            Stage::Device => {
+                self.device = Device::parse(&data).ok_or(link.nonsense())?;
+                Stage::Head
+            }
+            Stage::Head => Stage::Configuration { length: Configuration::total_length(&data).ok_or(link.nonsense())? },
+            Stage::Configuration { .. } => {
+                self.configuration = Configuration::parse(&data).ok_or(link.nonsense())?;
+                if self.device.maker != 0 || self.device.name != 0 { Stage::Languages } else { self.configure(link) }
+            }
+            Stage::Languages if self.language != 0 && self.device.maker != 0 => Stage::Maker,
+            Stage::Languages | Stage::Maker if self.language != 0 && self.device.name != 0 => Stage::Name,
+            Stage::Languages | Stage::Maker | Stage::Name => self.configure(link),
+            Stage::Configure => self.first_question(),
+            Stage::HubDescriptor => {
+                let (ports, power_good) = HubTalk::parse(&data).ok_or(link.nonsense())?;
+                self.found = Found::Hub { ports, power_good };
+                Stage::Ready
+            }
+            Stage::Wake(wake) => {
+                let after = self.interface().and_then(|hid| wake.after(&data, hid, [&self.maker, &self.name]));
+                after.map_or(Stage::Ready, Stage::Wake)
+            }
+            Stage::Protocol => match answer {
+                Ok(_) => {
+                    self.found = Found::Input(Kind::BootKeyboard, Reader::BootKeyboard);
+                    Stage::Quiet
+                }
+                Err(_) => self.ask_for_reports(0),
+            },
+            Stage::ReportDescriptor => match Layout::parse(&data) {
+                Some(layout) => self.found_layout(layout),
+                None => self.ask_for_reports(self.hid + 1),
+            },
+            Stage::Quiet | Stage::Ready | Stage::Recovery | Stage::AddressRecovery => Stage::Ready,
+        };
+        Ok(())
+    }
+
+    /// Goes on to use the device, if it is of use.
+    fn configure(&mut self, link: &Link) -> Stage {
+        let is_hub = self.device.class == CLASS_HUB && link.route.speed != Speed::Low;
+        if !is_hub {
+            self.configuration.hub = None;
+        }
+        let of_use = self.configuration.hub.is_some() || !self.configuration.hid.is_empty();
+        if of_use { Stage::Configure } else { Stage::Ready }
+    }
+
+    /// Goes on with a device that is configured.
+    fn first_question(&mut self) -> Stage {
+        if self.configuration.hub.is_some() {
+            return Stage::HubDescriptor;
+        }
+        if (self.device.vendor, self.device.product) == dualshock3::PRODUCT {
+            self.found = Found::Input(Kind::DualShock3, Reader::DualShock3);
+            return Stage::Wake(dualshock3::Wake::FIRST);
+        }
+        match self.configuration.hid.iter().position(|hid| hid.boot_keyboard) {
+            Some(hid) => {
+                self.hid = hid;
+                Stage::Protocol
+            }
+            None => self.ask_for_reports(0),
+        }
+    }
+
+    /// Goes on with the report descriptor of an interface, or ends without.
+    fn ask_for_reports(&mut self, hid: usize) -> Stage {
+        self.hid = hid;
+        if self.interface().is_some() { Stage::ReportDescriptor } else { Stage::Ready }
+    }
+
+    fn found_layout(&mut self, layout: Layout) -> Stage {
+        let product = (self.device.vendor, self.device.product);
+        let (kind, reader, next) = match layout.form {
+            Form::Keyboard(_) => (Kind::ReportKeyboard, Reader::Layout(layout), Stage::Quiet),
+            Form::Pad(_) if dualshock4::PRODUCTS.contains(&product) => {
+                (Kind::DualShock4, Reader::DualShock4(layout), Stage::Ready)
+            }
+            Form::Pad(_) => (Kind::Gamepad, Reader::Layout(layout), Stage::Ready),
+        };
+        self.found = Found::Input(kind, reader);
+        next
+    }
 }
 
-/// Tells whether the device did what it was asked to; a refusal is no fault.
-fn accepts(result: Result<(), Fault>) -> Result<bool, Fault> {
-    match result {
-        Ok(()) => Ok(true),
-        Err(Fault::Transfer { error: PipeError::Stall, .. }) => Ok(false),
-        Err(fault) => Err(fault),
+const fn get(kind: u8, index: u8, language: u16) -> Setup {
+    Setup::descriptor(kind, index, language)
+}
+
+/// Takes a refusal for an answer.
+fn unless_refused(link: &Link, answer: Outcome) -> Result<(), Fault> {
+    match answer {
+        Err(TransferError::STALL) => Ok(()),
+        other => link.succeeded(other).map(drop),
     }
 }

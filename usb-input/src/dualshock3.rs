@@ -1,100 +1,73 @@
 //! What a DualShock 3 wants to be told.
 
-use core::cell::Cell;
-use core::convert::Infallible;
-use core::future::poll_fn;
-use core::task::Poll;
-
-use embassy_usb_driver::host::{PipeError, UsbHostAllocator, UsbPipe, pipe};
-
 use crate::descriptor::HidInterface;
-use crate::link::Link;
+use crate::link::{Link, Next};
 use crate::setup::{ReportType, Setup};
-use crate::timing::{PULSE_US, STAGE_TIMEOUT_US};
-use crate::{Clock, Fault, Identity, Step};
+use crate::{Memory, Step};
 
 /// idVendor and idProduct.
 pub(crate) const PRODUCT: (u16, u16) = (0x054C, 0x0268);
 
 /// Length of output report 0x01 without its id (Linux `hid-sony.c`).
-const OUTPUT_LENGTH: usize = 35;
+pub(crate) const OUTPUT_LENGTH: usize = 35;
 
-/// Takes a refusal for an answer: not every pad knows every request.
-fn unless_refused<T>(result: Result<T, Fault>) -> Result<Option<T>, Fault> {
-    match result {
-        Ok(value) => Ok(Some(value)),
-        Err(Fault::Transfer { error: PipeError::Stall, .. }) => Ok(None),
-        Err(fault) => Err(fault),
-    }
-}
-
-/// Tells the pad to send reports, which it does not by itself.
+/// Tells the pad to send reports, which it does not by itself: what goes out, one after the other.
 ///
 /// Reading feature report 0xF2 does for Linux, writing 0xF4 for many others; both go out, and either may be refused.
 /// Pads made by others want 0xF5 read and a byte written to their interrupt endpoint as well, but for
 /// ShanWan's, which that makes shake for ever (Linux `hid-sony.c`). How these two end does not matter.
-pub(crate) async fn wake<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    hid: &HidInterface,
-    identity: &Identity,
-) -> Result<(), Fault> {
-    let mut answer = [0; 17];
-    unless_refused(link.read(Step::Wake, get_feature(0xF2, hid), &mut answer).await)?;
-    let asked = link.read(Step::Wake, get_feature(0xF5, hid), &mut answer[..8]).await.is_ok();
-    if let (true, Some(output), false) = (asked, hid.output, is_shanwan(identity))
-        && let Ok(mut pipe) = link.interrupt_pipe::<pipe::Out>(Step::Wake, output).await
-    {
-        let _ = link.bus.within(STAGE_TIMEOUT_US, pipe.request_out(&answer[..1], false)).await;
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wake {
+    ReadF2,
+    ReadF5,
+    Byte(u8),
+    WriteF4,
+}
+
+impl Wake {
+    pub(crate) const FIRST: Self = Self::ReadF2;
+
+    pub(crate) fn next(self, link: &mut Link, memory: &Memory, hid: &HidInterface) -> Next {
+        let feature = |id| Setup::get_report(ReportType::Feature, id, hid.number);
+        match (self, hid.output) {
+            (Self::ReadF2, _) => link.read(memory, Step::Wake, feature(0xF2), 17),
+            (Self::Byte(byte), Some(output)) => link.send(memory, Step::Wake, output, &[byte]),
+            (Self::ReadF5, _) | (Self::Byte(_), None) => link.read(memory, Step::Wake, feature(0xF5), 8),
+            (Self::WriteF4, _) => {
+                let setup = Setup::set_report(ReportType::Feature, 0xF4, hid.number);
+                link.write(memory, Step::Wake, setup, &[0x42, 0x0C, 0, 0])
+            }
+        }
     }
-    let operational = Setup::set_report(ReportType::Feature, 0xF4, hid.number);
-    unless_refused(link.write(Step::Wake, operational, &[0x42, 0x0C, 0, 0]).await)?;
-    Ok(())
+
+    /// Tells whether this may be refused, but not fail.
+    pub(crate) const fn has_to_succeed(self) -> bool {
+        matches!(self, Self::ReadF2 | Self::WriteF4)
+    }
+
+    /// Returns what follows the answer to this, `None` at the end; `names` are the pad's and its maker's.
+    pub(crate) fn after(self, answer: &[u8], hid: &HidInterface, names: [&str; 2]) -> Option<Self> {
+        match self {
+            Self::ReadF2 => Some(Self::ReadF5),
+            Self::ReadF5 => match answer.first() {
+                Some(&byte) if hid.output.is_some() && !names.iter().any(|name| is_shanwan(name)) => {
+                    Some(Self::Byte(byte))
+                }
+                _ => Some(Self::WriteF4),
+            },
+            Self::Byte(_) => Some(Self::WriteF4),
+            Self::WriteF4 => None,
+        }
+    }
 }
 
-fn get_feature(id: u8, hid: &HidInterface) -> Setup {
-    Setup::get_report(ReportType::Feature, id, hid.number)
-}
-
-fn is_shanwan(identity: &Identity) -> bool {
+fn is_shanwan(name: &str) -> bool {
     const MAKER: &[u8] = b"shanwan";
-    let names = [&identity.maker, &identity.name];
-    names.iter().any(|name| name.as_bytes().windows(MAKER.len()).any(|part| part.eq_ignore_ascii_case(MAKER)))
-}
-
-/// Lights the player's lamp once the pad has sent its first report, which ends its own blinking, and gives a pulse
-/// whenever the pose is frozen, if that is wanted. Failures are left at that.
-pub(crate) async fn outputs<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    hid: &HidInterface,
-    reported: &Cell<bool>,
-) -> Infallible {
-    let memory = link.bus.memory;
-    let player = memory.config.player;
-    wait_until(|| reported.get()).await;
-    let _ = send(link, hid, &output(player, false)).await;
-    loop {
-        wait_until(|| !memory.frozen.get()).await;
-        wait_until(|| memory.config.pulse_on_freeze && memory.frozen.get()).await;
-        let _ = send(link, hid, &output(player, true)).await;
-        link.bus.sleep(PULSE_US).await;
-        let _ = send(link, hid, &output(player, false)).await;
-    }
-}
-
-async fn wait_until(condition: impl Fn() -> bool) {
-    poll_fn(|_| if condition() { Poll::Ready(()) } else { Poll::Pending }).await;
-}
-
-async fn send<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    hid: &HidInterface,
-    report: &[u8; OUTPUT_LENGTH],
-) -> Result<(), Fault> {
-    link.write(Step::Reports, Setup::set_report(ReportType::Output, 0x01, hid.number), report).await
+    name.as_bytes().windows(MAKER.len()).any(|part| part.eq_ignore_ascii_case(MAKER))
 }
 
 /// Makes output report 0x01, without its id: the small motor on or off, one of four lamps lit.
-fn output(player: u8, shake: bool) -> [u8; OUTPUT_LENGTH] {
+pub(crate) fn output(player: u8, shake: bool) -> [u8; OUTPUT_LENGTH] {
     const MOTOR_DURATION: usize = 1;
     const MOTOR: usize = 2;
     const LAMPS: usize = 9;
@@ -118,7 +91,7 @@ fn output(player: u8, shake: bool) -> [u8; OUTPUT_LENGTH] {
 
 #[cfg(test)]
 mod tests {
-    use super::output;
+    use super::{is_shanwan, output};
 
     /// What Linux was seen to send for the first player.
     #[test]
@@ -135,5 +108,11 @@ mod tests {
     #[test]
     fn a_pulse_is_the_small_motor() {
         assert_eq!(output(1, true)[1..5], [0x10, 1, 0, 0]);
+    }
+
+    #[test]
+    fn a_maker_is_known_by_its_name() {
+        assert!(is_shanwan("SHANWAN PS3 GamePad") && is_shanwan("ShanWan"));
+        assert!(!is_shanwan("Sony") && !is_shanwan(""));
     }
 }

@@ -1,108 +1,194 @@
 //! A hub: its ports, and what is plugged into them.
 
 mod port;
+mod status;
 
-use core::convert::Infallible;
-use core::future::poll_fn;
-use core::pin::pin;
-use core::task::Poll;
-
-use embassy_futures::select::{Either, select};
-use embassy_usb_driver::host::{PipeError, UsbHostAllocator, UsbPipe, pipe};
-
-use crate::bring_up::Hub;
-use crate::descriptor::PACKET_MAXIMUM;
-use crate::link::Link;
-use crate::setup::Setup;
-use crate::timing::{READ_ERRORS_MAXIMUM, READ_PAUSE_US};
-use crate::{Clock, Fault, Place, Step};
-use port::{Port, feature};
+use crate::descriptor::Endpoint;
+use crate::ear::Ear;
+use crate::link::{Link, Next};
+use crate::mailbox::Outcome;
+use crate::setup::{Setup, descriptor};
+use crate::timing::POWER_GOOD_UNIT_US;
+use crate::{Fault, Kind, Memory, Step};
+use port::{Port, Task};
+use status::{Status, feature};
 
 /// Ports of a hub that are served, from port 1 on.
 pub const HUB_PORTS_MAXIMUM: u8 = 8;
 
-/// Bit `n` for port `n`, bit 0 for the hub itself (USB 2.0 §11.12.4).
-type Changes = u32;
-
-/// Serves a hub's ports until the hub fails.
-pub(crate) async fn serve<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: Link<'_, A, K>,
-    hub: Hub,
-) -> Result<Infallible, Fault> {
-    if hub.ports > HUB_PORTS_MAXIMUM {
-        link.bus.tell_fault(link.route.place, Fault::TooManyPorts { ports: hub.ports }).await;
-    }
-    let count = hub.ports.min(HUB_PORTS_MAXIMUM);
-    for port in 1..=count {
-        link.write(Step::Port, Setup::set_port_feature(feature::POWER, port), &[]).await?;
-    }
-    link.bus.sleep(hub.power_good_us).await;
-    let mut ports: [Port; HUB_PORTS_MAXIMUM as usize] = core::array::from_fn(|index| Port::new(index as u8 + 1));
-    let ports = &mut ports[..usize::from(count)];
-    let mut pipe = link.interrupt_pipe::<pipe::In>(Step::Port, hub.status).await?;
-    let mut buffer = [0; PACKET_MAXIMUM as usize];
-    let mut errors = 0;
-    // What was plugged in before power came need not be told of as a change.
-    let mut changes = Changes::MAX;
-    loop {
-        look(&link, ports, changes).await?;
-        let asked = {
-            let mut asked = pin!(pipe.request_in(&mut buffer[..usize::from(hub.status.packet)]));
-            loop {
-                match select(asked.as_mut(), attention(&link, ports)).await {
-                    Either::First(asked) => break asked,
-                    Either::Second(index) => ports[index].attend(&link).await?,
-                }
-            }
-        };
-        changes = match asked {
-            Ok(count) => {
-                errors = 0;
-                let bytes = buffer.iter().take(count.min(size_of::<Changes>())).rev();
-                bytes.fold(0, |changes, &byte| changes << 8 | Changes::from(byte))
-            }
-            Err(error) => {
-                if errors >= READ_ERRORS_MAXIMUM {
-                    return Err(Fault::Transfer { doing: Step::Port, error });
-                }
-                link.bus.sleep(READ_PAUSE_US << errors).await;
-                errors += 1;
-                if error == PipeError::Stall {
-                    let endpoint = 0x80 | hub.status.number;
-                    link.write(Step::Port, Setup::clear_halt(endpoint), &[]).await?;
-                    pipe.reset_data_toggle();
-                }
-                0
-            }
-        };
-    }
+/// A hub that is served.
+#[derive(Debug)]
+pub(crate) struct HubTalk {
+    /// How many ports it has.
+    count: u8,
+    /// bPwrOn2PwrGood.
+    power_good: u8,
+    ports: [Port; HUB_PORTS_MAXIMUM as usize],
+    ear: Ear,
+    /// What has changed and was not looked at yet: bit `n` for port `n`, bit 0 for the hub itself (USB 2.0 §11.12.4).
+    changes: u32,
+    stage: Stage,
 }
 
-/// Looks at everything that has changed.
-async fn look<'d, A: UsbHostAllocator<'d>, K: Clock>(
-    link: &Link<'_, A, K>,
-    ports: &mut [Port],
-    changes: Changes,
-) -> Result<(), Fault> {
-    if changes & 1 != 0 {
-        port::look_at_hub(link).await?;
-    }
-    for port in ports.iter_mut().filter(|port| changes >> port.number() & 1 != 0) {
-        port.look(link).await?;
-    }
-    Ok(())
+/// What is being done.
+#[derive(Debug, Clone, Copy)]
+enum Stage {
+    Begin,
+    /// Ports are powered, this one and those above.
+    Power {
+        port: u8,
+    },
+    PowerGood,
+    Rest,
+    /// The hub itself is asked what has changed.
+    HubStatus,
+    /// Its changes are taken note of.
+    HubClear {
+        changes: u16,
+    },
+    /// A port, by its index, is dealt with.
+    Port {
+        index: u8,
+        task: Task,
+    },
 }
 
-/// Waits until a port wants something done; returns its index.
-async fn attention<'d, A: UsbHostAllocator<'d>, K: Clock>(link: &Link<'_, A, K>, ports: &[Port]) -> usize {
-    poll_fn(|_| {
-        let wanting = ports.iter().position(|port| port.wants_attention(link));
-        wanting.map_or(Poll::Pending, Poll::Ready)
-    })
-    .await
-}
+impl HubTalk {
+    /// Bytes of the hub descriptor that are of use.
+    pub(crate) const DESCRIPTOR_LENGTH: usize = 9;
 
-/// Returns where a device at a port of this hub is.
-fn place_below(hub: Place, port: u8) -> Option<Place> {
-    hub.below(port)
+    /// Reads ports and bPwrOn2PwrGood from a hub descriptor (USB 2.0 §11.23.2.1); `None` if it is none.
+    pub(crate) fn parse(bytes: &[u8]) -> Option<(u8, u8)> {
+        match *bytes {
+            [7..=255, descriptor::HUB, ports @ 1..=255, _, _, power_good, _, ..] => Some((ports, power_good)),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn new(count: u8, power_good: u8, status: Endpoint) -> Self {
+        Self {
+            count,
+            power_good,
+            ports: core::array::from_fn(|index| Port::new(index as u8 + 1)),
+            ear: Ear::new(status, Step::Port),
+            changes: 0,
+            stage: Stage::Begin,
+        }
+    }
+
+    pub(crate) const fn kind(&self) -> Kind {
+        Kind::Hub { ports: self.count }
+    }
+
+    fn served(&self) -> u8 {
+        self.count.min(HUB_PORTS_MAXIMUM)
+    }
+
+    /// Takes note of what has changed.
+    pub(crate) fn hear(&mut self, link: &Link, memory: &Memory, arrival: Outcome) {
+        let mailbox = link.mailbox(memory);
+        if let Some(length) = self.ear.hear(arrival) {
+            let packet = mailbox.packet(length.min(size_of::<u32>()));
+            self.changes |= packet.iter().rev().fold(0, |changes, &byte| changes << 8 | u32::from(byte));
+            drop(packet);
+            mailbox.go_on(false);
+        }
+    }
+
+    pub(crate) fn next(&mut self, link: &mut Link, memory: &Memory) -> Result<Next, Fault> {
+        if let Some(next) = self.ear.next(link, memory)? {
+            return Ok(next);
+        }
+        match self.stage {
+            Stage::Begin => {
+                if self.count > HUB_PORTS_MAXIMUM {
+                    memory.tell_fault(link.place(), Fault::TooManyPorts { ports: self.count });
+                }
+                self.stage = Stage::Power { port: 1 };
+            }
+            Stage::Power { port } if port > self.served() => {
+                self.stage = Stage::PowerGood;
+                return Ok(Next::Until(memory.now_us() + u64::from(self.power_good) * POWER_GOOD_UNIT_US));
+            }
+            Stage::Power { port } => {
+                return Ok(link.order(memory, Step::Port, Setup::set_port_feature(feature::POWER, port)));
+            }
+            Stage::PowerGood => {
+                link.mailbox(memory).listen(link.way(self.ear.endpoint));
+                // What was plugged in before power came need not be told of as a change.
+                self.changes = u32::MAX;
+                self.stage = Stage::Rest;
+            }
+            Stage::Rest => {
+                self.choose(link, memory);
+                if let Stage::Rest = self.stage {
+                    return Ok(Next::Nothing);
+                }
+            }
+            Stage::HubStatus => return Ok(link.read(memory, Step::Port, Setup::hub_status(0), Status::LENGTH)),
+            Stage::HubClear { changes: 0 } => self.stage = Stage::Rest,
+            Stage::HubClear { changes } => {
+                let change = changes.trailing_zeros() as u8;
+                return Ok(link.order(memory, Step::Port, Setup::clear_hub_feature(change, 0)));
+            }
+            Stage::Port { index, task } => {
+                let next = self.ports[usize::from(index)].next(link, memory, task);
+                if let Some((next, task)) = next {
+                    self.stage = Stage::Port { index, task };
+                    return Ok(next);
+                }
+                self.stage = Stage::Rest;
+            }
+        }
+        Ok(Next::Again)
+    }
+
+    /// Finds something to do.
+    fn choose(&mut self, link: &Link, memory: &Memory) {
+        if self.changes & 1 != 0 {
+            self.changes &= !1;
+            self.stage = Stage::HubStatus;
+            return;
+        }
+        let served = self.served();
+        for (index, port) in (0..served).zip(&mut self.ports) {
+            let bit = 1 << (index + 1);
+            let task = if self.changes & bit != 0 {
+                self.changes &= !bit;
+                Some(Task::LOOK)
+            } else {
+                port.wish(link, memory)
+            };
+            if let Some(task) = task {
+                self.stage = Stage::Port { index, task };
+                return;
+            }
+        }
+    }
+
+    pub(crate) fn answered(&mut self, link: &mut Link, memory: &Memory, answer: Outcome) -> Result<(), Fault> {
+        if self.ear.answered(link, memory, answer)? {
+            return Ok(());
+        }
+        let count = link.succeeded(answer)?;
+        match self.stage {
+            Stage::Power { port } => self.stage = Stage::Power { port: port + 1 },
+            Stage::HubStatus => {
+                let hub = Status::parse(&link.data(memory, count)).ok_or(link.nonsense())?;
+                if hub.changes & hub.status & 1 << 1 != 0 {
+                    memory.tell_fault(link.place(), Fault::OverCurrent);
+                }
+                // Local power and over-current (USB 2.0 §11.24.2.6); there are no others.
+                self.stage = Stage::HubClear { changes: hub.changes & 0b11 };
+            }
+            Stage::HubClear { changes } => self.stage = Stage::HubClear { changes: changes & (changes - 1) },
+            Stage::Port { index, task } => {
+                let data = link.data(memory, count);
+                let task = self.ports[usize::from(index)].answered(link, memory, task, &data)?;
+                self.stage = task.map_or(Stage::Rest, |task| Stage::Port { index, task });
+            }
+            Stage::Begin | Stage::PowerGood | Stage::Rest => {}
+        }
+        Ok(())
+    }
 }

@@ -30,27 +30,31 @@
 extern crate std;
 
 mod bring_up;
-mod bus;
+mod carrier;
 mod clock;
 mod config;
 mod descriptor;
-mod device;
 mod dualshock3;
 mod dualshock4;
+mod ear;
 mod event;
 mod fault;
 mod hid;
 mod hub;
 mod identity;
+mod input;
 mod link;
+mod mailbox;
 mod memory;
 mod place;
 mod reader;
-mod reports;
+mod root;
 mod route;
 mod run;
 mod setup;
 mod slots;
+mod stack;
+mod talk;
 mod timing;
 mod usb_input;
 

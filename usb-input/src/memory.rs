@@ -1,26 +1,32 @@
-//! What the bus remembers.
+//! What the bus remembers, and what everything on it shares: the time, the events.
 
 use core::cell::{Cell, RefCell};
+use core::pin::Pin;
+use core::task::{Context, Poll};
 
 use heapless::Deque;
 
-use crate::slots::Slots;
-use crate::{Config, Event};
+use crate::mailbox::Mailbox;
+use crate::slots::{DEVICES_MAXIMUM, SlotIndex, Slots};
+use crate::{Config, Event, Fault, Place};
 
 /// Events that can wait.
 const QUEUE_LENGTH: usize = 16;
+/// Events that may come of one occurrence.
+const EVENTS_AT_ONCE: usize = 2;
 
 /// All that the bus keeps, but for its future. Goes where the bus lives: a stack that stays, or a static.
 #[derive(Debug)]
 pub struct Memory {
     pub(crate) config: Config,
-    pub(crate) events: RefCell<Deque<Event, QUEUE_LENGTH>>,
     pub(crate) slots: Slots,
     pub(crate) frozen: Cell<bool>,
-    /// Counts polls, so that none does too much.
-    pub(crate) round: Cell<u32>,
+    mailboxes: [Mailbox; DEVICES_MAXIMUM],
+    events: RefCell<Deque<Event, QUEUE_LENGTH>>,
+    /// The time of this poll.
+    now_us: Cell<u64>,
     /// The earliest end of a wait that the last poll met.
-    pub(crate) next_wait_us: Cell<Option<u64>>,
+    next_wait_us: Cell<Option<u64>>,
 }
 
 impl Memory {
@@ -29,23 +35,88 @@ impl Memory {
     pub const fn new(config: Config) -> Self {
         Self {
             config,
-            events: RefCell::new(Deque::new()),
             slots: Slots::new(),
             frozen: Cell::new(false),
-            round: Cell::new(0),
+            mailboxes: [const { Mailbox::new() }; DEVICES_MAXIMUM],
+            events: RefCell::new(Deque::new()),
+            now_us: Cell::new(0),
             next_wait_us: Cell::new(None),
         }
     }
 
     /// Begins a poll.
-    pub(crate) fn begin_round(&self) {
-        self.round.set(self.round.get().wrapping_add(1));
+    pub(crate) fn begin_poll(&self, now_us: u64) {
+        self.now_us.set(now_us);
         self.next_wait_us.set(None);
     }
 
-    /// Notes that somebody waits until a time.
-    pub(crate) fn note_wait(&self, until_us: u64) {
-        let earliest = self.next_wait_us.get().map_or(until_us, |other| other.min(until_us));
-        self.next_wait_us.set(Some(earliest));
+    pub(crate) fn now_us(&self) -> u64 {
+        self.now_us.get()
+    }
+
+    pub(crate) fn next_wait_us(&self) -> Option<u64> {
+        self.next_wait_us.get()
+    }
+
+    pub(crate) fn mailbox(&self, slot: SlotIndex) -> &Mailbox {
+        &self.mailboxes[slot.index()]
+    }
+
+    /// Tells whether anything has changed for somebody since it was asked last.
+    pub(crate) fn take_stirred(&self) -> bool {
+        let mailboxes = self.mailboxes.iter().fold(false, |stirred, mailbox| stirred | mailbox.take_stirred());
+        self.slots.take_stirred() | mailboxes
+    }
+
+    /// Tells whether a time has come; else notes that somebody waits for it.
+    #[inline(never)]
+    pub(crate) fn has_come(&self, time_us: u64) -> bool {
+        let come = self.now_us() >= time_us;
+        if !come {
+            let earliest = self.next_wait_us.get().map_or(time_us, |other| other.min(time_us));
+            self.next_wait_us.set(Some(earliest));
+        }
+        come
+    }
+
+    /// Waits for a while.
+    pub(crate) fn sleep(&self, duration_us: u64) -> Sleep<'_> {
+        Sleep { memory: self, until_us: self.now_us() + duration_us }
+    }
+
+    /// Tells whether there is room for what may come of one occurrence.
+    pub(crate) fn has_room(&self) -> bool {
+        self.events.borrow().len() <= QUEUE_LENGTH - EVENTS_AT_ONCE
+    }
+
+    /// Tells an event, after [`has_room`](Self::has_room).
+    #[inline(never)]
+    pub(crate) fn tell(&self, event: Event) {
+        let full = self.events.borrow_mut().push_back(event).is_err();
+        debug_assert!(!full, "an event without room");
+    }
+
+    /// Tells a fault, likewise.
+    pub(crate) fn tell_fault(&self, device: Place, fault: Fault) {
+        self.tell(Event::Fault { device, fault });
+    }
+
+    /// Takes the oldest event.
+    pub(crate) fn take_event(&self) -> Option<Event> {
+        self.events.borrow_mut().pop_front()
+    }
+}
+
+/// A wait.
+pub(crate) struct Sleep<'m> {
+    memory: &'m Memory,
+    until_us: u64,
+}
+
+impl Future for Sleep<'_> {
+    type Output = ();
+
+    fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
+        if self.memory.has_come(self.until_us) { Poll::Ready(()) } else { Poll::Pending }
     }
 }

@@ -39,6 +39,11 @@ impl Setup {
         [self.kind, self.request, value[0], value[1], index[0], index[1], length[0], length[1]]
     }
 
+    /// Whether its data comes from the device.
+    pub(crate) const fn reads(self) -> bool {
+        self.kind & 0x80 != 0
+    }
+
     const fn new(kind: u8, request: u8, value: u16, index: u16) -> Self {
         Self { kind, request, value, index }
     }

@@ -1,8 +1,6 @@
 //! Who is on the bus: a slot, and so an address, for each device.
 
 use core::cell::Cell;
-use core::future::poll_fn;
-use core::task::Poll;
 
 use crate::route::Route;
 use crate::{Kind, Place};
@@ -15,12 +13,18 @@ pub const DEVICES_MAXIMUM: usize = 10;
 pub(crate) struct SlotIndex(u8);
 
 impl SlotIndex {
-    pub(crate) fn all() -> impl Iterator<Item = Self> {
-        (0..DEVICES_MAXIMUM as u8).map(Self)
-    }
+    pub(crate) const ALL: [Self; DEVICES_MAXIMUM] = {
+        let mut all = [Self(0); DEVICES_MAXIMUM];
+        let mut index = 0;
+        while index < all.len() {
+            all[index] = Self(index as u8);
+            index += 1;
+        }
+        all
+    };
 
-    pub(crate) const fn new(index: usize) -> Self {
-        Self(index as u8)
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
     }
 
     /// The address of the device, 1…127.
@@ -29,9 +33,9 @@ impl SlotIndex {
     }
 }
 
-/// How far a slot's device is. A hub or the root port owns it in all but the last three.
+/// How far a slot's device is. The hub or the root port that it hangs on owns it in the first three.
 #[derive(Debug, Clone, Copy)]
-enum Phase {
+pub(crate) enum Phase {
     Free,
     /// Promised to a port whose reset is under way.
     Reserved,
@@ -60,6 +64,8 @@ struct Slot {
 pub(crate) struct Slots {
     slots: [Slot; DEVICES_MAXIMUM],
     turn: Cell<Option<SlotIndex>>,
+    /// A slot's phase has changed.
+    stirred: Cell<bool>,
 }
 
 impl Slots {
@@ -72,94 +78,97 @@ impl Slots {
                 told: Cell::new(None),
             }
         }; DEVICES_MAXIMUM];
-        Self { slots, turn: Cell::new(None) }
+        Self { slots, turn: Cell::new(None), stirred: Cell::new(false) }
     }
 
     fn slot(&self, index: SlotIndex) -> &Slot {
-        &self.slots[usize::from(index.0)]
+        &self.slots[index.index()]
     }
 
-    /// Tells whether a new device at a place may be reset: no other has address 0, and who was there before
-    /// has been let go.
-    pub(crate) fn may_begin(&self, place: Place) -> bool {
-        let gone = |slot: &Slot| matches!(slot.phase.get(), Phase::Free) || slot.place.get() != place;
-        self.turn.get().is_none() && self.slots.iter().all(gone)
+    pub(crate) fn phase(&self, index: SlotIndex) -> Phase {
+        self.slot(index).phase.get()
     }
 
-    /// Takes a free slot and the turn at address 0 for a device; `None` if there is no free slot.
-    pub(crate) fn reserve(&self, parent: Option<SlotIndex>, place: Place) -> Option<SlotIndex> {
-        let index = SlotIndex::all().find(|&index| matches!(self.slot(index).phase.get(), Phase::Free))?;
+    fn set_phase(&self, index: SlotIndex, phase: Phase) {
+        self.slot(index).phase.set(phase);
+        self.stirred.set(true);
+    }
+
+    /// Tells whether a slot's phase has changed since it was asked last.
+    pub(crate) fn take_stirred(&self) -> bool {
+        self.stirred.take()
+    }
+
+    pub(crate) fn place(&self, index: SlotIndex) -> Place {
+        self.slot(index).place.get()
+    }
+
+    /// Takes a free slot and the turn at address 0 for a device whose port is to be reset.
+    ///
+    /// # Errors
+    /// [`NotNow::Later`] while another device has the turn, or who was there before has not been let go;
+    /// [`NotNow::NoRoom`] if there is no free slot.
+    pub(crate) fn reserve(&self, parent: Option<SlotIndex>, place: Place) -> Result<SlotIndex, NotNow> {
+        let is_free = |slot: &Slot| matches!(slot.phase.get(), Phase::Free);
+        if self.turn.get().is_some() || self.slots.iter().any(|slot| !is_free(slot) && slot.place.get() == place) {
+            return Err(NotNow::Later);
+        }
+        let index = SlotIndex::ALL.into_iter().find(|&index| is_free(self.slot(index))).ok_or(NotNow::NoRoom)?;
         let slot = self.slot(index);
-        slot.phase.set(Phase::Reserved);
+        self.set_phase(index, Phase::Reserved);
         slot.place.set(place);
         slot.parent.set(parent);
         self.turn.set(Some(index));
-        Some(index)
+        Ok(index)
     }
 
     /// Says that a reserved slot's device has been reset.
     pub(crate) fn begin(&self, index: SlotIndex, route: Route) {
-        self.slot(index).phase.set(Phase::Ready(route));
+        self.set_phase(index, Phase::Ready(route));
     }
 
-    /// Waits until a slot's device has been reset.
-    pub(crate) async fn ready(&self, index: SlotIndex) -> Route {
-        let phase = &self.slot(index).phase;
-        poll_fn(|_| match phase.get() {
-            Phase::Ready(route) => {
-                phase.set(Phase::Busy);
-                Poll::Ready(route)
-            }
-            _ => Poll::Pending,
-        })
-        .await
+    /// Says that a device is being talked to from now on.
+    pub(crate) fn take(&self, index: SlotIndex) {
+        self.set_phase(index, Phase::Busy);
     }
 
     /// Ends a device's turn at address 0, if it is its.
     pub(crate) fn end_turn(&self, index: SlotIndex) {
         if self.turn.get() == Some(index) {
             self.turn.set(None);
+            self.stirred.set(true);
         }
     }
 
-    /// Lets a device go: at once, or as soon as who talks to it has told so.
+    /// Lets a device go: at once, or as soon as that has been told.
     pub(crate) fn leave(&self, index: SlotIndex) {
-        let phase = &self.slot(index).phase;
-        match phase.get() {
-            Phase::Busy | Phase::Leaving => phase.set(Phase::Leaving),
+        match self.phase(index) {
+            Phase::Leaving => {}
+            Phase::Busy => self.set_phase(index, Phase::Leaving),
             _ => {
-                phase.set(Phase::Free);
+                self.set_phase(index, Phase::Free);
                 self.end_turn(index);
             }
         }
     }
 
-    /// Waits until a device is to be let go.
-    pub(crate) async fn left(&self, index: SlotIndex) {
-        poll_fn(|_| if self.is_leaving(index) { Poll::Ready(()) } else { Poll::Pending }).await;
-    }
-
-    fn is_leaving(&self, index: SlotIndex) -> bool {
-        matches!(self.slot(index).phase.get(), Phase::Leaving)
-    }
-
     pub(crate) fn has_failed(&self, index: SlotIndex) -> bool {
-        matches!(self.slot(index).phase.get(), Phase::Failed)
+        matches!(self.phase(index), Phase::Failed)
     }
 
     /// Ends the talk with a device, because it is let go or has failed.
     pub(crate) fn end(&self, index: SlotIndex) {
-        let phase = if self.is_leaving(index) { Phase::Free } else { Phase::Failed };
-        self.slot(index).phase.set(phase);
+        let leaving = matches!(self.phase(index), Phase::Leaving);
+        self.set_phase(index, if leaving { Phase::Free } else { Phase::Failed });
     }
 
     /// Lets go of everything that hangs on a hub.
     pub(crate) fn leave_children(&self, hub: SlotIndex) {
-        let on_hub = |index: &SlotIndex| {
-            let slot = self.slot(*index);
-            slot.parent.get() == Some(hub) && !matches!(slot.phase.get(), Phase::Free)
-        };
-        SlotIndex::all().filter(on_hub).for_each(|index| self.leave(index));
+        for index in SlotIndex::ALL {
+            if self.slot(index).parent.get() == Some(hub) && !matches!(self.phase(index), Phase::Free) {
+                self.leave(index);
+            }
+        }
     }
 
     /// Notes that a device was told of.
@@ -171,4 +180,11 @@ impl Slots {
     pub(crate) fn take_told(&self, index: SlotIndex) -> Option<Option<Kind>> {
         self.slot(index).told.take()
     }
+}
+
+/// Why a port cannot be reset now.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NotNow {
+    Later,
+    NoRoom,
 }

@@ -25,20 +25,19 @@ impl<'a> UsbInput<'a> {
 
     /// Lets everything that can go on go on, a step.
     pub fn poll(&mut self) {
-        self.memory.begin_round();
         let _ = self.bus.as_mut().poll(&mut Context::from_waker(Waker::noop()));
     }
 
     /// Takes the oldest event.
     pub fn next_event(&mut self) -> Option<Event> {
-        self.memory.events.borrow_mut().pop_front()
+        self.memory.take_event()
     }
 
     /// Returns when the earliest of the waits ends that the last [`poll`](Self::poll) met, by the
     /// [`Clock`](crate::Clock); `None` if none does. A transfer may want a poll before that.
     #[must_use]
     pub fn next_wait_us(&self) -> Option<u64> {
-        self.memory.next_wait_us.get()
+        self.memory.next_wait_us()
     }
 
     /// Tells whether the pose is frozen, for [`Config::pulse_on_freeze`](crate::Config::pulse_on_freeze);

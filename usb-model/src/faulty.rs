@@ -17,8 +17,6 @@ pub enum Fault {
     Babble(usize),
     /// Answers IN with the other toggle than it should.
     WrongToggle,
-    /// Does not answer this many transactions.
-    Silent(u32),
 }
 
 /// A device and what it does wrong from some transaction on.
@@ -27,18 +25,24 @@ pub struct Faulty<D> {
     fault: Option<Fault>,
     /// Transactions that go well before.
     good: u64,
+    /// Transactions that go wrong.
+    bad: u64,
 }
 
 impl<D> Faulty<D> {
     /// A device that does nothing wrong yet.
     pub fn new(device: D) -> Self {
-        Self { device, fault: None, good: 0 }
+        Self { device, fault: None, good: 0, bad: 0 }
     }
 
     /// From the transaction after the next `good` ones on it has this fault.
     pub fn break_after(&mut self, good: u64, fault: Fault) {
-        self.fault = Some(fault);
-        self.good = good;
+        self.break_for(good, u64::MAX, fault);
+    }
+
+    /// After the next `good` transactions, `bad` ones have this fault.
+    pub fn break_for(&mut self, good: u64, bad: u64, fault: Fault) {
+        (self.fault, self.good, self.bad) = (Some(fault), good, bad);
     }
 
     /// It behaves again.
@@ -51,18 +55,14 @@ impl<D> Faulty<D> {
         &mut self.device
     }
 
-    /// The fault, once its time has come.
+    /// The fault, while its time is.
     fn now_faulty(&mut self) -> Option<Fault> {
-        if self.fault.is_some() && self.good > 0 {
+        self.fault?;
+        if self.good > 0 {
             self.good -= 1;
             return None;
         }
-        if let Some(Fault::Silent(left)) = &mut self.fault {
-            match left.checked_sub(1) {
-                Some(less) => *left = less,
-                None => self.fault = None,
-            }
-        }
+        self.bad = self.bad.checked_sub(1)?;
         self.fault
     }
 }
@@ -79,7 +79,7 @@ impl<D: Device> Device for Faulty<D> {
     fn setup(&mut self, now: u64, target: Target, packet: [u8; 8]) -> Handshake {
         let healthy = |device: &mut D| device.setup(now, target, packet);
         match self.now_faulty() {
-            Some(Fault::Vanish | Fault::Silent(_)) => Handshake::Silent,
+            Some(Fault::Vanish) => Handshake::Silent,
             _ => healthy(&mut self.device),
         }
     }
@@ -87,7 +87,7 @@ impl<D: Device> Device for Faulty<D> {
     fn data_in(&mut self, now: u64, target: Target) -> Answer {
         let fault = self.now_faulty();
         let answer = match fault {
-            Some(Fault::Vanish | Fault::Silent(_)) => return Answer::Silent,
+            Some(Fault::Vanish) => return Answer::Silent,
             _ => self.device.data_in(now, target),
         };
         match (fault, answer) {
@@ -108,7 +108,7 @@ impl<D: Device> Device for Faulty<D> {
 
     fn data_out(&mut self, now: u64, target: Target, toggle: Toggle, bytes: &[u8]) -> Handshake {
         let fault = self.now_faulty();
-        if matches!(fault, Some(Fault::Vanish | Fault::Silent(_))) {
+        if matches!(fault, Some(Fault::Vanish)) {
             return Handshake::Silent;
         }
         match (fault, self.device.data_out(now, target, toggle, bytes)) {

@@ -124,6 +124,11 @@ impl CachedMemory {
         }
     }
 
+    /// Some of these bytes are in the caches as they were before the core wrote them.
+    pub fn is_stale(&self, offset: usize, length: usize) -> bool {
+        self.any(offset, length, Line::Stale)
+    }
+
     /// Loads clean lines.
     fn fill(&mut self, offset: usize, length: usize) {
         for line in Self::lines_of(offset, length).filter(|line| self.lines[*line] == Line::Clean) {

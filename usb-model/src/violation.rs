@@ -34,7 +34,7 @@ macro_rules! rules {
 
 rules! {
     ResetWhileBusy: "A soft reset waits until the bus master is idle.", "Linux `dwc2/core.c` dwc2_core_reset; U-Boot `dwc2.c`";
-    AccessInReset: "While the soft reset runs, and until the bus master is idle again, only GRSTCTL is touched.", "Linux `dwc2/core.c` dwc2_core_reset";
+    AccessInReset: "While the soft reset runs, and until the bus master is idle again, only GRSTCTL is touched; the identity may be read.", "Linux `dwc2/core.c` dwc2_core_reset";
     DeviceMode: "Host registers are written in host mode only: 25 ms after it was forced.", "Linux `dwc2/core.c` dwc2_force_mode";
     PhyWithoutReset: "A change of the PHY's choice is followed by a soft reset.", "Linux `dwc2/core.c` dwc2_hs_phy_init; U-Boot `dwc2.c`";
     BothRoles: "The core is forced to be a host or a device, not both.", "Linux `dwc2/hw.h`, GUSBCFG bits 29 and 30";
@@ -89,7 +89,20 @@ rules! {
     CompleteWithoutStart: "A complete split follows a start split for the same endpoint.", "USB 2.0 §11.14";
     SplitRestarted: "A start split that was taken is followed by complete splits until they are answered, or fail.", "USB 2.0 §11.17.1";
     SplitAbandoned: "What a translator has for a control or bulk endpoint is fetched, or cleared.", "USB 2.0 §11.17.4 and §11.24.2.3";
-    StartSplitCrowd: "A translator gets at most 16 periodic start splits a microframe.", "USB 2.0 §11.18.4, as Linux cites it";
+}
+
+impl Rule {
+    /// The test in `host-tests/tests/usb_driver/rules` that fails when a driver that breaks the rule goes unnoticed.
+    pub fn test(self) -> String {
+        let mut name = String::new();
+        for letter in format!("{self:?}").chars() {
+            if letter.is_uppercase() && !name.is_empty() {
+                name.push('_');
+            }
+            name.extend(letter.to_lowercase());
+        }
+        name
+    }
 }
 
 impl fmt::Display for Rule {

@@ -3,6 +3,7 @@
 mod board;
 mod cargo;
 mod fpga;
+mod rtl;
 mod usb;
 
 use std::collections::HashMap;
@@ -58,6 +59,13 @@ const CHECKS: &[Check] = &[
     Check { name: "the Quartus project agrees with the design and with itself", run: fpga::project },
     Check { name: "the lint of the Quartus project finds mistakes", run: |_| cargo::fpga_tests() },
     Check { name: "the board's keys, switches, lights and displays answer", run: fpga::board_io },
+    Check { name: "this computer has Verilator", run: rtl::tools },
+    Check { name: "clippy finds nothing in the FPGA's simulation", run: |_| rtl::clippy() },
+    Check {
+        name: "the FPGA's design equals the software model, with 1, 2, 4 and 8 pixel units",
+        run: |_| rtl::tests(),
+    },
+    Check { name: "a wave of the FPGA's design shows its words", run: |_| rtl::waves() },
     Check { name: "this computer has a Rust toolchain for the boards", run: toolchain },
     Check { name: "this computer has QEMU", run: qemu },
     Check { name: "the firmware for de1-soc builds", run: |state| build(state, Board::De1Soc) },

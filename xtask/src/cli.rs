@@ -1,23 +1,25 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
+mod board;
 mod values;
 
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands;
 use crate::qemu::UsbIds;
-use values::{parse_rotation, parse_usb_ids};
+use values::{parse_rotation, parse_units, parse_usb_ids};
 
+pub use board::Board;
 pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
     ("See it work", &["demo", "run", "pad"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
-    ("Check and measure", &["test", "bench"]),
+    ("Check and measure", &["test", "bench", "area"]),
     ("Keep generated files fresh", &["generate"]),
 ];
 
@@ -29,7 +31,7 @@ Examples:
   cargo xtask demo --help                           all flags of one command
 
 Results go to target/<command>/ unless -o or --output names another place.
-What is missing (Rust target, QEMU) is installed where that needs no question;
+What is missing (Rust target, QEMU, Verilator) is installed where that needs no question;
 otherwise the command to type is printed.";
 
 /// Runs every task of the Halfspace project.
@@ -72,6 +74,9 @@ pub enum Task {
     ///
     /// Shows the front buffer or, if the stream has no swap, the back buffer. Bad packets are
     /// skipped with a warning. A stream that ends inside a packet is an error: nothing is written.
+    /// With --rtl the FPGA's SystemVerilog draws, clock by clock, in Verilator: what comes out is
+    /// compared with the software model, and what each frame cost is shown. A word goes in each
+    /// clock; waiting for the vertical blank is cut short and not counted.
     Replay(ReplayArguments),
     /// Prints a file of packet words as text
     ///
@@ -80,47 +85,16 @@ pub enum Task {
     Decode(DecodeArguments),
     /// Measures the cost per vertex, triangle and pixel
     ///
-    /// Counts the Cortex-A9's instructions in QEMU, and times geometry and software model on this
-    /// computer, as an optimised build: median of several runs.
+    /// Counts the Cortex-A9's instructions in QEMU and the FPGA's clocks in Verilator, and times
+    /// geometry and software model on this computer, as an optimised build: median of several runs.
     Bench(BenchArguments),
+    /// Counts what the FPGA's design takes of the device, with Yosys
+    ///
+    /// Writes the table into rtl/README.md; logs stay in target/area. Yosys maps to the Cyclone V's
+    /// cells but places nothing: only Quartus can tell whether it fits and how fast it is.
+    Area(AreaArguments),
     /// Writes the files that are generated and committed
     Generate(GenerateArguments),
-}
-
-/// A board the firmware runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
-pub enum Board {
-    /// ARM Versatile Express with a Cortex-A9, as QEMU models it
-    VexpressA9,
-    /// Raspberry Pi 2 with the DE1-SoC's USB controller, as QEMU models it
-    Raspi2b,
-    /// Terasic DE1-SoC: builds, but nothing here can run it yet
-    De1Soc,
-}
-
-impl Board {
-    /// All boards.
-    pub const ALL: [Self; 3] = [Self::VexpressA9, Self::Raspi2b, Self::De1Soc];
-
-    /// Returns whether QEMU has the board.
-    pub const fn runs_in_qemu(self) -> bool {
-        matches!(self, Self::VexpressA9 | Self::Raspi2b)
-    }
-
-    /// Returns the board's name: the firmware's feature and binary have the same.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::VexpressA9 => "vexpress-a9",
-            Self::Raspi2b => "raspi2b",
-            Self::De1Soc => "de1-soc",
-        }
-    }
-}
-
-impl fmt::Display for Board {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.name())
-    }
 }
 
 /// Flags of `demo`.
@@ -129,6 +103,9 @@ pub struct DemoArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Writes the packet words of all frames as well, for replay and decode
+    #[arg(long, value_name = "FILE")]
+    pub dump: Option<PathBuf>,
 }
 
 /// Flags of `test`.
@@ -216,6 +193,24 @@ pub struct ReplayArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
+    /// Draws with the FPGA's design in Verilator instead of the software model
+    #[arg(long)]
+    pub rtl: bool,
+    /// Pixel units that the design is built with
+    #[arg(long, value_name = "N", requires = "rtl", default_value_t = 8, value_parser = parse_units)]
+    pub units: u32,
+    /// Takes the picture, 640×480, from the VGA pins
+    #[arg(long, requires = "rtl")]
+    pub pins: bool,
+    /// Records every signal of a few clocks in an FST file, for GTKWave or Surfer
+    #[arg(long, value_name = "FILE", requires = "rtl")]
+    pub wave: Option<PathBuf>,
+    /// First clock of --wave: 20 ns each, counted as in the table
+    #[arg(long, value_name = "CLOCK", requires = "wave", default_value_t = 0)]
+    pub from: u64,
+    /// Number of clocks of --wave, each about 300 bytes in the file
+    #[arg(long, value_name = "N", requires = "wave", default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub clocks: u64,
 }
 
 /// Flags of `decode`.
@@ -224,6 +219,17 @@ pub struct DecodeArguments {
     /// Packet words, as render --dump writes them
     #[arg(value_name = "WORDS")]
     pub words: PathBuf,
+}
+
+/// Flags of `area`.
+#[derive(Debug, Args)]
+pub struct AreaArguments {
+    /// Writes nothing and fails when the table is stale
+    #[arg(long)]
+    pub check: bool,
+    /// Synthesizes only this number of pixel units, and writes nothing
+    #[arg(long, value_name = "1|2|4|8", value_parser = parse_units)]
+    pub units: Option<u32>,
 }
 
 /// Flags of `bench`.
@@ -265,6 +271,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
         Task::Bench(arguments) => commands::bench::run(arguments),
+        Task::Area(arguments) => commands::area::run(arguments),
         Task::Generate(arguments) => commands::generate::run(arguments),
     }
 }
@@ -339,6 +346,23 @@ mod tests {
     }
 
     #[test]
+    fn a_wave_wants_the_design_and_a_number_of_units_one_that_there_is() {
+        let Task::Replay(arguments) = parse("replay w -o o.png --rtl --wave f --from 7").expect("valid").command else {
+            panic!("replay is replay");
+        };
+        assert_eq!((arguments.units, arguments.from, arguments.clocks), (8, 7, 20_000));
+        assert!(parse("replay w -o o.png").is_ok());
+        assert!(parse("replay w -o o.png --rtl --units 4 --pins --wave f --clocks 9").is_ok());
+        for wrong in
+            ["--wave f", "--units 8", "--pins", "--rtl --from 1", "--rtl --clocks 5", "--rtl --wave f --clocks 0"]
+        {
+            assert!(parse(&format!("replay w -o o.png {wrong}")).is_err(), "{wrong}");
+        }
+        let message = parse("replay w -o o.png --rtl --units 3").expect_err("no such build").to_string();
+        assert!(message.contains("1, 2, 4 or 8 pixel units"), "{message}");
+    }
+
+    #[test]
     fn the_other_commands_parse() {
         for line in [
             "demo",
@@ -347,6 +371,7 @@ mod tests {
             "run --board raspi2b --pad s",
             "run --board raspi2b --usb-host 054c:0268",
             "pad s --session f",
+            "demo --dump w",
             "test",
             "test --only usb",
             "replay w -o o.png --depth d",

@@ -1,5 +1,6 @@
 //! One file per command; each has a `run` that takes the command's flags.
 
+pub mod area;
 pub mod bench;
 pub mod decode;
 pub mod demo;

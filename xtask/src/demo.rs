@@ -2,7 +2,7 @@
 
 use anyhow::ensure;
 
-use crate::machine::{Link, Machine};
+use crate::machine::{Link, Machine, with_recording_host};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::report::{Report, SceneReport};
@@ -40,4 +40,45 @@ pub fn play(machine: &mut (impl Machine + ?Sized), parts: &[ScenePart], progress
         played.pictures.extend(pictures);
     }
     Ok(played)
+}
+
+/// Plays a session on this computer and returns the packet words of all its frames.
+///
+/// # Errors
+/// As [`play`].
+pub fn words(parts: &[ScenePart], progress: &Progress) -> anyhow::Result<Vec<u32>> {
+    let (played, mut words) = with_recording_host(|machine| play(machine, parts, progress))?;
+    // Until it is told to step, the application draws frames of its own.
+    let count: u64 = played.report.scenes.iter().map(|scene| scene.words).sum();
+    Ok(words.split_off(words.len() - count as usize))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::with_host;
+    use crate::software_fpga::{picture, with_model};
+    use crate::stream::WordFile;
+    use fpga_regs::packet::Packet;
+    use fpga_regs::registers::{Control, Register};
+
+    /// The words alone show what the session showed.
+    #[test]
+    fn the_words_draw_the_last_frame_again() {
+        let mut parts = session::demo().expect("it is committed");
+        parts.iter_mut().for_each(|part| part.frames.truncate(2));
+        let quiet = Progress::quiet();
+        let played = with_host(|machine| play(machine, &parts, &quiet)).expect("it plays");
+        let file = WordFile { words: words(&parts, &quiet).expect("it plays again"), spare_bytes: 0 };
+        file.check_end().expect("whole packets");
+        let swaps = file.entries().filter(|entry| entry.packet == Ok(Packet::Swap)).count();
+        assert_eq!(swaps, played.pictures.len());
+        let (_, _, last) = played.pictures.last().expect("six frames");
+        let again = with_model(|device| {
+            device.write(Register::Control, Control::default().with_enable(true).0);
+            device.push(&file.words);
+            picture(device.front()).doubled()
+        });
+        assert_eq!(*last, again);
+    }
 }

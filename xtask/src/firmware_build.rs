@@ -1,11 +1,11 @@
 //! Builds a board's firmware with the toolchain that the set-up found.
 
-use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::ensure;
 
+use crate::cargo_build;
 use crate::cli::Board;
 use crate::paths;
 use crate::progress::Progress;
@@ -29,23 +29,7 @@ pub fn build_firmware(
 ) -> anyhow::Result<PathBuf> {
     let with = if features.is_empty() { String::new() } else { format!(" with {}", features.join(", ")) };
     let step = progress.step(format!("building the firmware for {board}{with}"));
-    let mut cargo = command(board, features, toolchain);
-    let mut child =
-        cargo.spawn().with_context(|| format!("cannot start {}: is Rust installed?", toolchain.cargo.display()))?;
-    let mut said = String::new();
-    if let Some(output) = child.stderr.take() {
-        for line in BufReader::new(output).split(b'\n') {
-            let line = line.context("cannot read what cargo says")?;
-            let line = String::from_utf8_lossy(&line);
-            step.update(line.trim());
-            said.push_str(&line);
-            said.push('\n');
-        }
-    }
-    let status = child.wait().context("cannot wait for cargo")?;
-    if !status.success() {
-        bail!("the firmware for {board} does not build ({status}); cargo says:\n{said}");
-    }
+    cargo_build::run(command(board, features, toolchain), &format!("the firmware for {board}"), &step)?;
     let elf = elf_path(board);
     ensure!(elf.is_file(), "cargo built the firmware, but {} is not there", elf.display());
     step.done();
@@ -59,10 +43,7 @@ fn command(board: Board, features: &[&str], toolchain: &FirmwareToolchain) -> Co
         .args(["build", "--release", "--package", "firmware", "--bin", board.name(), "--features"])
         .arg([&[board.name()], features].concat().join(","))
         .args(["--target", TARGET, "--target-dir"])
-        .arg(target_folder())
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped());
+        .arg(target_folder());
     cargo
 }
 

@@ -4,8 +4,8 @@
 //! | --- | --- |
 //! | [`cli`] | the commands and their flags |
 //! | [`commands`] | one file per command |
-//! | [`setup`] | makes this machine able: Rust target, QEMU, other tools |
-//! | [`firmware_build`] | builds a board's ELF file |
+//! | [`setup`] | makes this machine able: Rust target, QEMU, Verilator |
+//! | [`firmware_build`] | builds a board's ELF file; [`cargo_build`] runs cargo for it |
 //! | [`boot`] | from nothing to a firmware that runs |
 //! | [`qemu`] | one running QEMU with its console, link and log; [`qmp`] is its remote control |
 //! | [`machine`] | QEMU, or this process, as something that is stepped frame by frame |
@@ -15,6 +15,7 @@
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
+//! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
@@ -30,7 +31,9 @@
 #[cfg(not(unix))]
 compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS or in WSL");
 
+pub mod area;
 pub mod boot;
+pub mod cargo_build;
 pub mod checks;
 pub mod cli;
 pub mod commands;
@@ -57,6 +60,7 @@ pub mod setup;
 pub mod software_fpga;
 pub mod stream;
 pub mod table;
+pub mod verilated;
 
 #[cfg(test)]
 mod test_elf;

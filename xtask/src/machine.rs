@@ -10,7 +10,7 @@ use firmware::link::{self, BoardMessage, Fault, FrameReport, HostMessage, Status
 use crate::picture::Picture;
 
 pub use emulated::Emulated;
-pub use host::with_host;
+pub use host::{with_host, with_recording_host};
 
 /// A board's end of the link, and its screen.
 pub trait Machine {

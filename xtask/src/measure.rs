@@ -10,11 +10,13 @@ use fixed::types::{I4F28, I32F32};
 use fpga_regs::packet::{Clear, FlatTriangle};
 use fpga_regs::registers::{Control, Register};
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
-use geometry::{Culling, Face, FaceLight, Matrix, Mesh, ScreenTransform, ScreenVertex, Sink, Transformed, Winding};
-use serde::Serialize;
+use geometry::{
+    Culling, Drawn, Face, Matrix, Mesh, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Winding,
+};
+use serde::{Deserialize, Serialize};
 
 use crate::machine::{Link, Machine};
-use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport};
+use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport, verdict};
 use crate::session::{self, ScenePart};
 use crate::software_fpga::with_model;
 
@@ -28,23 +30,43 @@ const SCREENS: i32 = 40;
 const BOARD_FRAMES: usize = 8;
 
 /// One number.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// What was measured.
-    pub name: &'static str,
+    pub name: String,
     /// How much it is.
     pub value: f64,
     /// Of what.
-    pub unit: &'static str,
+    pub unit: String,
     /// What it may not be worse than, if there is such a bar.
     pub bar: Option<f64>,
     /// Which way is better.
-    pub better: &'static str,
+    pub better: Better,
+}
+
+/// Which way a number is better.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Better {
+    /// More is better: a bar is a least value.
+    Higher,
+    /// Less is better: a bar is a largest value.
+    Lower,
 }
 
 impl Measurement {
-    fn new(name: &'static str, value: f64, unit: &'static str) -> Self {
-        Self { name, value: (value * 100.0).round() / 100.0, unit, bar: None, better: "lower" }
+    /// Returns a figure without a bar, rounded to hundredths; less is better.
+    pub fn new(name: &str, value: f64, unit: &str) -> Self {
+        let value = (value * 100.0).round() / 100.0;
+        Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower }
+    }
+
+    /// Returns in words whether it reaches its bar, if it has one.
+    pub fn verdict(&self) -> Option<&'static str> {
+        self.bar.map(|bar| match self.better {
+            Better::Higher => verdict(bar, self.value),
+            Better::Lower => verdict(self.value, bar),
+        })
     }
 }
 
@@ -86,10 +108,10 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
 pub fn on_host() -> anyhow::Result<Vec<Measurement>> {
     let mut mesh_memory = Box::<MeshMemory>::default();
     let meshes = Meshes::new(&mut mesh_memory)?;
-    let mesh = meshes.of(Scene::Torus);
+    let mesh = &meshes.of(Scene::Torus).mesh;
     let view = Viewer::new(Scene::Torus).view(&Controls::new(Config::default()).state());
     let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let light = FaceLight::new(&view.light, &view.model);
+    let light = ObjectLight::new(&view.light, &view.model);
     let mut cache = vec![ScreenVertex::default(); MAX_VERTICES];
     let mut words = Words { buffer: vec![0; 2 * mesh.faces().len() * FlatTriangle::WORDS], used: 0 };
 
@@ -138,7 +160,7 @@ fn screens() -> anyhow::Result<Vec<u32>> {
     for screen in 0..SCREENS {
         let nearer = I32F32::from_num(SCREENS / 2 - screen) / i64::from(SCREENS);
         let transform = ScreenTransform::new(&Matrix::translation([I32F32::ZERO, I32F32::ZERO, nearer]), &mesh);
-        Transformed::new(&mesh, &transform, &mut cache)?.draw(&FaceLight::FULL, Culling::BackFaces, &mut words);
+        Transformed::new(&mesh, &transform, &mut cache)?.draw(&ObjectLight::FULL, Culling::BackFaces, &mut words);
     }
     let clear = Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode();
     Ok([&clear[..], &words.buffer[..words.used]].concat())
@@ -151,12 +173,12 @@ struct Words {
 }
 
 impl Sink for Words {
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
         self.buffer[self.used..].first_chunk_mut()
     }
 
-    fn take(&mut self, _: [&ScreenVertex; 3], _: [u8; 3]) {
-        self.used += FlatTriangle::WORDS;
+    fn take<const N: usize>(&mut self, _: Drawn<'_>) {
+        self.used += N;
     }
 }
 
@@ -181,6 +203,16 @@ mod tests {
         let measurements = on_host().expect("built-in meshes are good");
         assert_eq!(measurements.len(), 3);
         assert!(measurements.iter().all(|it| it.value > 0.0 && it.unit == "ns"), "{measurements:?}");
+    }
+
+    #[test]
+    fn a_bar_is_a_least_or_a_largest_value() {
+        let at = |value, better| Measurement { bar: Some(7.0), better, ..Measurement::new("it", value, "pixels") };
+        assert_eq!(at(7.5, Better::Higher).verdict(), Some("holds"));
+        assert_eq!(at(6.5, Better::Higher).verdict(), Some("MISSED"));
+        assert_eq!(at(7.5, Better::Lower).verdict(), Some("MISSED"));
+        assert_eq!(at(7.0, Better::Lower).verdict(), Some("holds"));
+        assert_eq!(Measurement::new("it", 1.0, "ns").verdict(), None);
     }
 
     #[test]

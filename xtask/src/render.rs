@@ -5,11 +5,11 @@ pub mod mvp;
 
 use anyhow::Context;
 use fixed::types::{I2F30, I16F16};
-use fpga_regs::packet::{Clear, FlatTriangle, swap};
+use fpga_regs::packet::{Clear, Packet, swap};
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Renderer, Timeouts};
 use geometry::pipeline::DrawStatistics;
-use geometry::{Culling, DirectionalLight, FaceLight, Matrix, ScreenTransform, ScreenVertex, Sink, draw};
+use geometry::{Culling, DirectionalLight, Drawn, Matrix, ObjectLight, ScreenTransform, ScreenVertex, Sink, draw};
 
 use crate::model::Model;
 use crate::picture::Picture;
@@ -57,10 +57,10 @@ pub struct Rendered {
 pub fn render(model: &Model, view: &View) -> anyhow::Result<Rendered> {
     let mesh = model.mesh()?;
     let transform = ScreenTransform::new(&view.model_to_clip, &mesh);
-    let light = FaceLight::new(&light(), &view.model);
+    let light = ObjectLight::new(&light(), &view.model);
     let mut cache = vec![ScreenVertex::default(); mesh.positions().len()];
     let mut recorder = Recorder {
-        room: [0; FlatTriangle::WORDS],
+        room: [0; Packet::MAX_WORDS],
         words: Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode().to_vec(),
         triangles: Vec::new(),
     };
@@ -91,24 +91,26 @@ fn picture_of(words: &[u32]) -> anyhow::Result<(Picture, Vec<u16>)> {
 fn light() -> DirectionalLight {
     // A unit vector.
     let direction = [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")];
-    DirectionalLight { direction, diffuse: I16F16::lit("0.75"), ambient: I16F16::lit("0.25") }
+    DirectionalLight { direction, colour: [255; 3], diffuse: I16F16::lit("0.75"), ambient: I16F16::lit("0.25") }
 }
 
 /// Keeps triangles and their words.
 struct Recorder {
-    room: [u32; FlatTriangle::WORDS],
+    room: [u32; Packet::MAX_WORDS],
     words: Vec<u32>,
     triangles: Vec<SetUp>,
 }
 
 impl Sink for Recorder {
-    fn room(&mut self) -> Option<&mut [u32; FlatTriangle::WORDS]> {
-        Some(&mut self.room)
+    fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
+        self.room.first_chunk_mut()
     }
 
-    fn take(&mut self, corners: [&ScreenVertex; 3], colour: [u8; 3]) {
-        self.words.extend(self.room);
-        self.triangles.push(SetUp { corners: corners.map(|corner| [corner.x, corner.y, corner.depth]), colour });
+    fn take<const N: usize>(&mut self, drawn: Drawn<'_>) {
+        self.words.extend(&self.room[..N]);
+        if let Drawn::Flat { corners, colour } = drawn {
+            self.triangles.push(SetUp { corners: corners.map(|corner| [corner.x, corner.y, corner.depth]), colour });
+        }
     }
 }
 
@@ -141,7 +143,7 @@ mod tests {
         assert_eq!((statistics.submitted, statistics.clipped), (4, 0));
         assert!((1..4).contains(&statistics.drawn), "back faces are culled");
         assert_eq!(rendered.triangles.len(), statistics.drawn as usize);
-        assert_eq!(rendered.words.len(), 2 + FlatTriangle::WORDS * rendered.triangles.len() + 1);
+        assert_eq!(rendered.words.len(), 2 + fpga_regs::packet::FlatTriangle::WORDS * rendered.triangles.len() + 1);
         let lit: Vec<usize> = rendered
             .picture
             .pixels()

@@ -5,7 +5,8 @@
 //! | needed | how it is had |
 //! | --- | --- |
 //! | the Rust target | see [`rust_target`]: rustup, or Debian's packages and a build of `core` |
-//! | QEMU, and later other tools | see [`packages`]: apt as root or by `sudo -n`, else the command to type is told |
+//! | Yosys | see [`yosys`]: a Python environment under the target folder |
+//! | QEMU, Verilator, a C++ compiler | see [`packages`]: apt as root or by `sudo -n`, else the command to type is told |
 //!
 //! Output of installers goes to `target/setup/*.log`; its end is shown when one fails. A lock
 //! file there lets a second `cargo xtask` wait until the first has done.
@@ -16,6 +17,8 @@ mod logged;
 pub mod packages;
 mod privilege;
 pub mod rust_target;
+mod verilator;
+mod yosys;
 
 use std::env;
 use std::path::PathBuf;
@@ -25,6 +28,8 @@ use anyhow::{Context, bail};
 
 pub use packages::{Packages, ensure_tool, find_program};
 pub use rust_target::{FirmwareToolchain, TARGET, ensure_firmware_toolchain};
+pub use verilator::{ensure_verilator, ensure_wave_library};
+pub use yosys::ensure_yosys;
 
 use crate::progress::Progress;
 use crate::qemu::Display;

@@ -24,36 +24,56 @@ pub fn with_model<R>(work: impl FnOnce(&mut Device<'_>) -> R) -> R {
 
 /// A model that a renderer and an onlooker share.
 #[derive(Clone)]
-pub struct SharedModel<'a, 'memory>(Rc<RefCell<&'a mut Device<'memory>>>);
+pub struct SharedModel<'a, 'memory>(Rc<RefCell<Shared<'a, 'memory>>>);
+
+struct Shared<'a, 'memory> {
+    device: &'a mut Device<'memory>,
+    /// All words pushed, if they are kept.
+    words: Option<Vec<u32>>,
+}
 
 impl<'a, 'memory> SharedModel<'a, 'memory> {
     /// Returns a handle that can be cloned.
     pub fn new(device: &'a mut Device<'memory>) -> Self {
-        Self(Rc::new(RefCell::new(device)))
+        Self(Rc::new(RefCell::new(Shared { device, words: None })))
+    }
+
+    /// Returns a handle that keeps every word that is pushed, for [`take_words`](Self::take_words).
+    pub fn recording(device: &'a mut Device<'memory>) -> Self {
+        Self(Rc::new(RefCell::new(Shared { device, words: Some(Vec::new()) })))
+    }
+
+    /// Returns the words pushed since the last call; none unless they are kept.
+    pub fn take_words(&self) -> Vec<u32> {
+        self.0.borrow_mut().words.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
     /// Returns the picture that the model shows.
     pub fn picture(&self) -> Picture {
-        picture(self.0.borrow().front())
+        picture(self.0.borrow().device.front())
     }
 
     /// Returns the checksum of the picture that the model shows.
     pub fn checksum(&self) -> u32 {
-        raster_model::picture_checksum(self.0.borrow().front())
+        raster_model::picture_checksum(self.0.borrow().device.front())
     }
 }
 
 impl Port for SharedModel<'_, '_> {
     fn read(&mut self, register: Register) -> u32 {
-        Port::read(&mut **self.0.borrow_mut(), register)
+        Port::read(self.0.borrow_mut().device, register)
     }
 
     fn write(&mut self, register: Register, value: u32) {
-        Port::write(&mut **self.0.borrow_mut(), register, value);
+        Port::write(self.0.borrow_mut().device, register, value);
     }
 
     fn push(&mut self, words: &[u32]) {
-        Port::push(&mut **self.0.borrow_mut(), words);
+        let mut shared = self.0.borrow_mut();
+        if let Some(kept) = &mut shared.words {
+            kept.extend(words);
+        }
+        Port::push(shared.device, words);
     }
 }
 

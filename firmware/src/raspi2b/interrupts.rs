@@ -63,7 +63,7 @@ pub(super) fn sleep_a_tick_unless(ready: impl FnOnce() -> bool) {
 
 /// Returns how many interrupts came that nobody asked for; each is kept back from then on.
 #[must_use]
-pub fn unexpected_interrupts() -> u32 {
+pub(super) fn unexpected_interrupts() -> u32 {
     UNEXPECTED.load(Ordering::Relaxed)
 }
 

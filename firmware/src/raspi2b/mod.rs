@@ -23,5 +23,3 @@ pub mod viewer;
 
 #[cfg(all(target_arch = "arm", feature = "raspi2b"))]
 pub use board::{Board, exit};
-#[cfg(all(target_arch = "arm", feature = "raspi2b"))]
-pub use interrupts::unexpected_interrupts;

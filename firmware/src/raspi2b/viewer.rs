@@ -6,7 +6,7 @@ use embedded_io::{Read, ReadReady, Write as _};
 
 use super::Board as Drivers;
 use super::framebuffer::Framebuffer;
-use super::interrupts::{sleep_a_tick_unless, start_ticking, stop_ticking, with_usb};
+use super::interrupts::{sleep_a_tick_unless, start_ticking, stop_ticking, unexpected_interrupts, with_usb};
 use super::mini_uart::Console;
 use super::system_timer::{HERTZ, SystemTimer};
 use crate::app::{Application, Memory};
@@ -27,6 +27,8 @@ pub struct ViewerBoard {
     clock: SystemTimer,
     /// When the next frame is due.
     next_frame: u64,
+    /// Interrupts that nobody asked for, as far as the console was told.
+    unexpected: u32,
 }
 
 /// Returns the application on this board.
@@ -39,7 +41,7 @@ pub fn application(
     memory: &'static mut Memory,
 ) -> Result<Application<'static, ViewerBoard, ClockWait<SystemTimer>>, StartError> {
     let Drivers { console, link, display, clock } = drivers;
-    let board = ViewerBoard { console, link, clock, next_frame: 0 };
+    let board = ViewerBoard { console, link, clock, next_frame: 0, unexpected: 0 };
     software_fpga::application(board, display, clock, model_memory, memory)
 }
 
@@ -68,6 +70,11 @@ impl Board for ViewerBoard {
         }
         if let Some(fault) = with_usb(Service::take_fault).flatten() {
             let _ = writeln!(self.console, "usb: {fault}");
+        }
+        let unexpected = unexpected_interrupts();
+        if unexpected != self.unexpected {
+            self.unexpected = unexpected;
+            let _ = writeln!(self.console, "{unexpected} interrupts came that nobody asked for, and are kept back");
         }
         let frozen = intake.state().frozen;
         with_usb(|usb| usb.set_frozen(frozen));

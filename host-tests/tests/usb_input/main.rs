@@ -10,3 +10,7 @@
 
 mod bench;
 mod devices;
+mod hubs;
+mod plugging;
+mod rogues;
+mod timing;

@@ -1,6 +1,5 @@
-//! What the tests share: random numbers, triangles from vertices, and the device next to its model.
-#![allow(dead_code, reason = "every test binary uses its own part")]
+//! What the tests share: the device next to its model, and the stimulus of `rtl_sim`.
+#![allow(dead_code, unused_imports, reason = "every test binary uses its own part")]
 
 pub mod pair;
-pub mod random;
-pub mod shapes;
+pub use rtl_sim::stimulus::{random, shapes};

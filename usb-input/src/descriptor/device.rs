@@ -5,7 +5,7 @@ use embassy_usb_driver::Speed;
 use crate::setup::descriptor;
 
 /// What the device descriptor says.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Device {
     pub(crate) class: u8,
     pub(crate) vendor: u16,

@@ -1,7 +1,5 @@
 //! String descriptors (USB 2.0 §9.6.7).
 
-use core::char::decode_utf16;
-
 use heapless::String;
 
 use crate::TEXT_BYTES;
@@ -26,12 +24,13 @@ pub(crate) fn text(bytes: &[u8]) -> String<TEXT_BYTES> {
     };
     let length = usize::from(length).min(bytes.len()).max(2);
     let units = bytes[2..length].chunks_exact(2).map(|unit| u16::from_le_bytes([unit[0], unit[1]]));
-    for character in decode_utf16(units).map_while(Result::ok).filter(|character| !character.is_control()) {
+    // Half of a pair is no character.
+    for character in units.filter_map(|unit| char::from_u32(unit.into())).filter(|character| !character.is_control()) {
         if text.push(character).is_err() {
             break;
         }
     }
-    text.truncate(text.trim_end().len());
+    text.truncate(text.trim_end_matches(' ').len());
     text
 }
 

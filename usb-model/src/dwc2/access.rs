@@ -1,5 +1,6 @@
 //! Register reads and writes.
 
+use super::channel::Channel;
 use super::registers::*;
 use super::{Core, FLUSH_US, RESET_US, Registers};
 use crate::violation::Rule;
@@ -7,7 +8,7 @@ use crate::violation::Rule;
 impl Core {
     /// Reads a register.
     pub fn read(&mut self, offset: u32) -> u32 {
-        if self.timers.reset_end.is_some() && offset != GRSTCTL {
+        if self.timers.reset_end.is_some() && !matches!(offset, GRSTCTL | GSNPSID) {
             self.blame(Rule::AccessInReset, format!("read of {offset:#05x}"));
         }
         match offset {
@@ -62,6 +63,7 @@ impl Core {
             PCGCTL => self.registers.power = value,
             _ => {}
         }
+        self.watch_line();
     }
 
     fn reset_control(&self) -> u32 {
@@ -106,7 +108,9 @@ impl Core {
         self.phy_at_reset = Some(phy & GUSBCFG_PHY);
         self.flushed = (false, false);
         self.disconnected = false;
-        self.channels.fill_with(Default::default);
+        for channel in &mut self.channels {
+            *channel = Channel { lent: channel.lent, ..Channel::default() };
+        }
         self.reset_port();
         self.timers.host_from = None;
         self.choose_role();

@@ -38,7 +38,7 @@ impl Core {
     fn act(&mut self, index: usize, memory: &mut dyn DmaBus) {
         let Some(run) = self.channels[index].run else { return };
         if run.halting {
-            return self.finish(index, 0, memory);
+            return self.finish(index, 0);
         }
         let program = self.channels[index].program();
         if self.wire_free > self.now {
@@ -49,13 +49,11 @@ impl Core {
         let end = self.frame_start(self.frame_index(self.now) + 1);
         let fits = self.now + duration(speed, bytes) < end;
         if run.frame.is_some_and(|frame| frame != self.frame_index(self.now)) || !fits && run.frame.is_some() {
-            return self.finish(index, HCINT_FRAME_OVERRUN, memory);
+            return self.finish(index, HCINT_FRAME_OVERRUN);
         }
         if !fits {
             return self.later(index, end + 1);
         }
-        memory.give_back(index);
-        memory.lend(index, program.address, program.bytes, program.input);
         self.transactions += 1;
         self.wire_free = self.now + duration(speed, bytes);
         if let Some(device) = &mut self.device {
@@ -87,11 +85,10 @@ impl Core {
     }
 
     /// The channel halts.
-    pub(super) fn finish(&mut self, index: usize, reasons: u32, memory: &mut dyn DmaBus) {
+    pub(super) fn finish(&mut self, index: usize, reasons: u32) {
         let channel = &mut self.channels[index];
         channel.interrupts |= reasons | HCINT_HALTED;
         channel.run = None;
-        memory.give_back(index);
     }
 
     /// Reads what is to be sent; `None` after a bus error, which leaves the channel running for ever.
@@ -133,10 +130,10 @@ impl Core {
             Handshake::Ack => {
                 self.snoop.setup(program, packet);
                 self.channels[index].packet_done(8);
-                self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+                self.finish(index, HCINT_COMPLETE | HCINT_ACK);
             }
             // A device may not answer SETUP with anything but ACK (§8.5.3); what else comes is an error.
-            _ => self.finish(index, HCINT_NO_ANSWER, memory),
+            _ => self.finish(index, HCINT_NO_ANSWER),
         }
     }
 
@@ -155,16 +152,16 @@ impl Core {
                 if program.packets > 1 {
                     self.later(index, self.wire_free);
                 } else {
-                    self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+                    self.finish(index, HCINT_COMPLETE | HCINT_ACK);
                 }
             }
-            Handshake::Nak if program.periodic() => self.finish(index, HCINT_NAK, memory),
+            Handshake::Nak if program.periodic() => self.finish(index, HCINT_NAK),
             Handshake::Nak => self.retry(index),
             Handshake::Stall => {
                 self.snoop.stall(program);
-                self.finish(index, HCINT_STALL, memory);
+                self.finish(index, HCINT_STALL);
             }
-            Handshake::Silent => self.finish(index, HCINT_NO_ANSWER, memory),
+            Handshake::Silent => self.finish(index, HCINT_NO_ANSWER),
         }
     }
 
@@ -172,19 +169,19 @@ impl Core {
         let Some(device) = &mut self.device else { return };
         match device.data_in(self.now, program.target) {
             Answer::Data(toggle, bytes) => self.received(index, program, toggle, &bytes, memory),
-            Answer::Nak if program.periodic() => self.finish(index, HCINT_NAK, memory),
+            Answer::Nak if program.periodic() => self.finish(index, HCINT_NAK),
             Answer::Nak => self.retry(index),
             Answer::Stall => {
                 self.snoop.stall(program);
-                self.finish(index, HCINT_STALL, memory);
+                self.finish(index, HCINT_STALL);
             }
-            Answer::Silent => self.finish(index, HCINT_NO_ANSWER, memory),
+            Answer::Silent => self.finish(index, HCINT_NO_ANSWER),
         }
     }
 
     fn received(&mut self, index: usize, program: &Program, toggle: Toggle, bytes: &[u8], memory: &mut dyn DmaBus) {
         if bytes.len() > program.packet_bytes {
-            self.finish(index, HCINT_BABBLE, memory);
+            self.finish(index, HCINT_BABBLE);
             if bytes.len() > SPILL_BYTES {
                 self.disable_port();
             }
@@ -195,7 +192,7 @@ impl Core {
             device.acknowledged(self.now, program.target);
         }
         if toggle != program.toggle() {
-            return self.finish(index, HCINT_TOGGLE | HCINT_ACK, memory);
+            return self.finish(index, HCINT_TOGGLE | HCINT_ACK);
         }
         if !self.store(index, bytes, memory) {
             return;
@@ -205,7 +202,7 @@ impl Core {
         if program.packets > 1 && bytes.len() == program.packet_bytes {
             self.later(index, self.wire_free);
         } else {
-            self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+            self.finish(index, HCINT_COMPLETE | HCINT_ACK);
         }
     }
 

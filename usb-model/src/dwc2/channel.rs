@@ -14,6 +14,8 @@ pub(super) struct Channel {
     pub size: u32,
     pub address: u32,
     pub run: Option<Run>,
+    /// Its buffer was lent to the core.
+    pub lent: bool,
 }
 
 /// A channel that was started.

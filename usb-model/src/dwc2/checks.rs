@@ -30,7 +30,7 @@ impl Core {
         if program.packets as usize != packets {
             blame(Rule::PacketCount);
         }
-        if program.input && program.packet_bytes > 0 && program.bytes % program.packet_bytes != 0 {
+        if program.input && !program.bytes.is_multiple_of(program.packet_bytes.max(1)) {
             blame(Rule::InputMultiple);
         }
         if !self.packet_size_exists(program) {

@@ -135,12 +135,11 @@ impl Core {
     /// line rises.
     pub fn advance(&mut self, until: u64, memory: &mut dyn DmaBus) -> bool {
         let was_up = self.irq();
-        for index in (0..self.channels.len()).filter(|index| self.channels[*index].run.is_none()) {
-            memory.give_back(index);
-        }
+        self.settle(memory);
         while let Some(event) = self.next_event().filter(|event| *event <= until) {
             self.now = self.now.max(event);
             self.happen(memory);
+            self.settle(memory);
             self.watch_line();
             if !was_up && self.irq() {
                 return false;
@@ -149,6 +148,22 @@ impl Core {
         self.now = self.now.max(until);
         self.watch_line();
         true
+    }
+
+    /// Tells the memory which buffers the core owns now. [`Core::advance`] does so too; whoever wants ownership to begin with
+    /// the very write that starts a channel calls this after each write.
+    pub fn settle(&mut self, memory: &mut dyn DmaBus) {
+        for (index, channel) in self.channels.iter_mut().enumerate() {
+            match (channel.run.is_some(), channel.lent) {
+                (true, false) => {
+                    let program = channel.program();
+                    memory.lend(index, program.address, program.bytes, program.input);
+                }
+                (false, true) => memory.give_back(index),
+                _ => continue,
+            }
+            channel.lent = !channel.lent;
+        }
     }
 
     /// When something happens next; nothing does before.

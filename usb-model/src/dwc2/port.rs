@@ -103,6 +103,10 @@ impl Core {
             self.port.disabled_at = self.now;
             self.port.disable_known = false;
         }
+        self.orphan_channels();
+    }
+
+    fn orphan_channels(&mut self) {
         for run in self.channels.iter_mut().filter_map(|channel| channel.run.as_mut()) {
             run.at = None;
         }
@@ -212,6 +216,7 @@ impl Core {
         self.port.reset_since = Some(self.now);
         self.port.enabled = false;
         self.port.disable_known = true;
+        self.orphan_channels();
     }
 
     fn end_reset(&mut self, since: u64) {

@@ -10,9 +10,6 @@ use crate::split::{Completed, Kind, Start, Started, Token};
 use crate::violation::Rule;
 use crate::wire::Speed;
 
-/// Periodic start splits that a translator takes in a microframe (USB 2.0 §11.18.4).
-const CROWD: u64 = 16;
-
 /// A split endpoint: hub, address, number, and the direction unless it is a control endpoint.
 type Pipe = (u8, u8, u8, bool);
 
@@ -33,8 +30,6 @@ struct Pending {
 pub(super) struct SplitWatch {
     pending: HashMap<Pipe, Pending>,
     starts: u64,
-    /// Per hub: microframe, and how many periodic start splits went there in it.
-    crowd: HashMap<u8, (u64, u64)>,
     /// Per hub: microframe, and the order of the last start split that was completed in it.
     completed: HashMap<u8, (u64, u64)>,
 }
@@ -87,7 +82,7 @@ impl Core {
             }
         };
         let Some(hub) = self.device.as_mut().and_then(|device| device.translator()) else {
-            return self.finish(index, HCINT_NO_ANSWER, memory);
+            return self.finish(index, HCINT_NO_ANSWER);
         };
         let answer = hub.start_split(self.now, token, start.clone());
         let heard = match answer {
@@ -106,7 +101,7 @@ impl Core {
                 self.snoop.setup(program, packet);
             }
         }
-        self.finish(index, heard, memory);
+        self.finish(index, heard);
     }
 
     fn check_start_split(&mut self, program: &Program, split: Split) {
@@ -115,15 +110,8 @@ impl Core {
         if !program.periodic() && owed.is_some_and(|pending| !pending.failed) {
             self.blame(Rule::SplitRestarted, program.name());
         }
-        if program.periodic() {
-            if microframe % 8 == 6 {
-                self.blame(Rule::StartSplitFrame, format!("{} in microframe {microframe}", program.name()));
-            }
-            let crowd = self.splits.crowd.entry(split.hub).or_default();
-            *crowd = if crowd.0 == microframe { (microframe, crowd.1 + 1) } else { (microframe, 1) };
-            if crowd.1 > CROWD {
-                self.blame(Rule::StartSplitCrowd, program.name());
-            }
+        if program.periodic() && microframe % 8 == 6 {
+            self.blame(Rule::StartSplitFrame, format!("{} in microframe {microframe}", program.name()));
         }
     }
 
@@ -131,17 +119,17 @@ impl Core {
         self.check_complete_split(program, split);
         let token = self.token(program, split);
         let Some(hub) = self.device.as_mut().and_then(|device| device.translator()) else {
-            return self.finish(index, HCINT_NO_ANSWER, memory);
+            return self.finish(index, HCINT_NO_ANSWER);
         };
         let answer = hub.complete_split(self.now, token);
         let key = pipe(program, split);
         match answer {
-            Completed::Nyet => return self.finish(index, HCINT_NYET, memory),
+            Completed::Nyet => return self.finish(index, HCINT_NYET),
             Completed::Error | Completed::Silent => {
                 if let Some(pending) = self.splits.pending.get_mut(&key) {
                     pending.failed = true;
                 }
-                return self.finish(index, HCINT_NO_ANSWER, memory);
+                return self.finish(index, HCINT_NO_ANSWER);
             }
             _ => {}
         }
@@ -156,7 +144,7 @@ impl Core {
                     let channel = &mut self.channels[index];
                     channel.packet_done(bytes.len());
                     channel.size |= MDATA << 29;
-                    self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+                    self.finish(index, HCINT_COMPLETE | HCINT_ACK);
                 }
             }
             Completed::Ack => {
@@ -165,27 +153,27 @@ impl Core {
                     self.snoop.packet(program, carried, false);
                 }
                 self.channels[index].packet_done(0);
-                self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+                self.finish(index, HCINT_COMPLETE | HCINT_ACK);
             }
-            Completed::Nak => self.finish(index, HCINT_NAK, memory),
+            Completed::Nak => self.finish(index, HCINT_NAK),
             _ => {
                 self.snoop.stall(program);
-                self.finish(index, HCINT_STALL, memory);
+                self.finish(index, HCINT_STALL);
             }
         }
     }
 
     fn split_data(&mut self, index: usize, program: &Program, right: bool, bytes: &[u8], memory: &mut dyn DmaBus) {
         if bytes.len() > program.packet_bytes {
-            return self.finish(index, HCINT_BABBLE, memory);
+            return self.finish(index, HCINT_BABBLE);
         }
         if !right {
-            return self.finish(index, HCINT_TOGGLE | HCINT_ACK, memory);
+            return self.finish(index, HCINT_TOGGLE | HCINT_ACK);
         }
         if self.store(index, bytes, memory) {
             self.snoop.packet(program, bytes.len(), false);
             self.channels[index].packet_done(bytes.len());
-            self.finish(index, HCINT_COMPLETE | HCINT_ACK, memory);
+            self.finish(index, HCINT_COMPLETE | HCINT_ACK);
         }
     }
 

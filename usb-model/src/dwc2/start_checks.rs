@@ -20,7 +20,7 @@ impl Core {
         if master & GAHBCFG_DMA == 0 {
             self.blame(Rule::DmaOff, format!("GAHBCFG {master:#010x}"));
         }
-        if channel.address % 4 != 0 {
+        if !channel.address.is_multiple_of(4) {
             self.blame(Rule::DmaUnaligned, format!("HCDMA {:#010x}", channel.address));
         }
         if self.registers.host & HCFG_DESCRIPTOR_DMA != 0 {

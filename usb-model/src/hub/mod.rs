@@ -172,8 +172,11 @@ impl Device for Hub {
             let answer = self.answer(packet);
             return self.control.setup(packet, answer);
         }
-        self.check_unsplit(target);
-        self.ask(now, Handshake::Silent, |device| device.setup(now, target, packet)).0
+        let (answer, _) = self.ask(now, Handshake::Silent, |device| device.setup(now, target, packet));
+        if answer == Handshake::Silent {
+            self.check_unsplit(target);
+        }
+        answer
     }
 
     fn data_in(&mut self, now: u64, target: Target) -> Answer {

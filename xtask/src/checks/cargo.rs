@@ -1,4 +1,4 @@
-//! Steps that are cargo's.
+//! Steps that are cargo's: every crate but the one that wants Verilator.
 
 use std::env;
 use std::process::Command;
@@ -6,9 +6,7 @@ use std::process::Command;
 use anyhow::{Context, bail};
 
 use crate::paths::workspace_root;
-
-/// The crate that only builds where Verilator is.
-const WANTS_VERILATOR: &str = "rtl-sim";
+use crate::verilated;
 
 pub(super) fn formatting() -> anyhow::Result<()> {
     component("rustfmt", &["fmt", "--version"])?;
@@ -18,14 +16,14 @@ pub(super) fn formatting() -> anyhow::Result<()> {
 pub(super) fn clippy() -> anyhow::Result<()> {
     component("clippy", &["clippy", "--version"])?;
     run(
-        &["clippy", "--quiet", "--workspace", "--exclude", WANTS_VERILATOR, "--all-targets", "--", "-D", "warnings"],
+        &["clippy", "--quiet", "--workspace", "--exclude", verilated::CRATE, "--all-targets", "--", "-D", "warnings"],
         "mend what clippy names above; most it can mend itself with `cargo clippy --fix`",
     )
 }
 
 pub(super) fn tests() -> anyhow::Result<()> {
     run(
-        &["test", "--workspace", "--exclude", WANTS_VERILATOR],
+        &["test", "--workspace", "--exclude", verilated::CRATE],
         "the failed test is named above; `cargo test NAME` runs it alone",
     )
 }
@@ -47,7 +45,7 @@ pub(super) fn fpga_tests() -> anyhow::Result<()> {
 }
 
 /// Runs cargo in the workspace, its words on this terminal.
-fn run(arguments: &[&str], remedy: &str) -> anyhow::Result<()> {
+pub(super) fn run(arguments: &[&str], remedy: &str) -> anyhow::Result<()> {
     let status = cargo(arguments).status().context("cannot start cargo: is Rust installed?")?;
     if !status.success() {
         bail!("`cargo {}` failed ({status}): {remedy}", arguments.join(" "));

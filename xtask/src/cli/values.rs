@@ -1,6 +1,7 @@
 //! Values of flags that are more than a word or a number.
 
 use crate::qemu::UsbIds;
+use crate::verilated::UNITS;
 
 /// Angles about the x, y and z axis, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,14 @@ pub(super) fn parse_usb_ids(text: &str) -> Result<UsbIds, String> {
     let ids = text.split_once(':').and_then(|(vendor, product)| id(vendor).zip(id(product)));
     let (vendor, product) = ids.ok_or("give the ids that lsusb shows, four hexadecimal digits each: 054c:0268")?;
     Ok(UsbIds { vendor, product })
+}
+
+/// Reads a number of pixel units.
+pub(super) fn parse_units(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(units) if UNITS.contains(&units) => Ok(units),
+        _ => Err("the design is built with 1, 2, 4 or 8 pixel units".to_string()),
+    }
 }
 
 /// Reads `X,Y,Z` as three finite angles in degrees.

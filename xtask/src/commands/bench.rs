@@ -1,18 +1,19 @@
-//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel.
+//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, and the FPGA's clocks.
 
 use std::env;
 use std::process::Command;
 
 use anyhow::{Context, ensure};
 
+use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
-use crate::report::verdict;
 use crate::session;
 use crate::table::{Column, Table};
+use crate::verilated::Verilated;
 
 /// Measures.
 ///
@@ -34,6 +35,11 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let step = progress.step("measuring on this computer");
     measurements.extend(measure::on_host()?);
     step.done();
+    let verilated = Verilated::prepare(false, &progress)?;
+    let step = progress.step("counting the FPGA's clocks");
+    measurements.extend(verilated.bench()?);
+    step.done();
+    measurements.extend(area::measurements()?);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
@@ -68,8 +74,7 @@ fn table(measurements: &[Measurement]) -> Table {
     ]);
     for it in measurements {
         let bar = it.bar.map(|bar| format!("{bar}")).unwrap_or_default();
-        let verdict = it.bar.map(|bar| verdict(it.value, bar)).unwrap_or_default();
-        table.row([it.name, &format!("{:.2}", it.value), it.unit, &bar, verdict]);
+        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, it.verdict().unwrap_or_default()]);
     }
     table
 }

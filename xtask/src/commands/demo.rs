@@ -15,6 +15,7 @@ use crate::picture::{Picture, write_animated_png, write_png};
 use crate::progress::Progress;
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, Report, verdict};
 use crate::session;
+use crate::stream::to_bytes;
 
 /// How long the animation shows a frame.
 const FRAME_TIME: Duration = Duration::from_millis(50);
@@ -39,6 +40,14 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     let played = demo::play(&mut machine, &parts, &progress)?;
     machine.quit()?;
     let report = save(played, &folder, &progress)?;
+    if let Some(path) = &arguments.dump {
+        let step = progress.step(format!("writing the packet words to {}", path.display()));
+        // Those of this computer: the golden file says that they are the same.
+        let words = demo::words(&parts, &Progress::quiet())?;
+        fs::write(path, to_bytes(&words))
+            .with_context(|| format!("cannot write {}: check its folder", path.display()))?;
+        step.done();
+    }
 
     println!("{}", report.table());
     // Only vexpress-a9's clock ticks finely enough to count a frame's instructions.

@@ -64,12 +64,12 @@ impl<'a, 'memory> Board for HostBoard<'a, 'memory> {
 }
 
 /// The application and its model as a machine.
-struct Host<'a, 'memory> {
-    application: Application<'a, HostBoard<'a, 'memory>, NoWait>,
+struct Host<'own, 'a, 'memory> {
+    application: Application<'own, HostBoard<'a, 'memory>, NoWait>,
     model: SharedModel<'a, 'memory>,
 }
 
-impl Machine for Host<'_, '_> {
+impl Machine for Host<'_, '_, '_> {
     fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
         self.application.board().incoming.extend(bytes);
         Ok(())
@@ -96,17 +96,32 @@ impl Machine for Host<'_, '_> {
 /// # Errors
 /// When the application does not start, or `work`'s.
 pub fn with_host<R>(work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>) -> anyhow::Result<R> {
+    with_model(|device| start(SharedModel::new(device), work))
+}
+
+/// Does the same, and returns the packet words as well that `work` had drawn.
+///
+/// # Errors
+/// As [`with_host`].
+pub fn with_recording_host<R>(
+    work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>,
+) -> anyhow::Result<(R, Vec<u32>)> {
     with_model(|device| {
-        let model = SharedModel::new(device);
-        let board = HostBoard {
-            of_model: PhantomData,
-            incoming: VecDeque::new(),
-            outgoing: VecDeque::new(),
-            console: String::new(),
-        };
-        let renderer = Renderer::new(model.clone(), NoWait, Timeouts::default())?;
-        let mut memory = Box::<Memory>::default();
-        let application = Application::new(board, renderer, &mut memory)?;
-        work(&mut Host { application, model })
+        let model = SharedModel::recording(device);
+        let result = start(model.clone(), work)?;
+        Ok((result, model.take_words()))
     })
+}
+
+fn start<R>(model: SharedModel<'_, '_>, work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>) -> anyhow::Result<R> {
+    let board = HostBoard {
+        of_model: PhantomData,
+        incoming: VecDeque::new(),
+        outgoing: VecDeque::new(),
+        console: String::new(),
+    };
+    let renderer = Renderer::new(model.clone(), NoWait, Timeouts::default())?;
+    let mut memory = Box::<Memory>::default();
+    let application = Application::new(board, renderer, &mut memory)?;
+    work(&mut Host { application, model })
 }

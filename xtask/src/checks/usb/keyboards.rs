@@ -47,7 +47,7 @@ fn check(mut rig: Rig, attached: &str) -> anyhow::Result<()> {
     let different = found.windows(2).filter(|pair| pair[0] != pair[1]).count();
     ensure!(different > found.len() / 2, "the keys moved nothing: {found:x?}");
     println!("{} key reports, {} frames", tally.keyboard.count, found.len());
-    rig.quit(0)
+    rig.quit()
 }
 
 /// The pictures that the keys make, and the tally, on this computer.

@@ -53,7 +53,7 @@ pub fn session_beside_a_keyboard(state: &mut State) -> anyhow::Result<()> {
     ensure!(pad.outputs().iter().any(|report| report.get(9) == Some(&0x02)), "lamp 1 is not lit: {:?}", pad.outputs());
     println!("{said} pad reports, {} golden frames", part.frames.len());
     server.check()?;
-    rig.quit(0)
+    rig.quit()
 }
 
 /// 1,200 reports of a pad and 240 of a keyboard while frames are drawn: none is lost, none doubled.
@@ -87,7 +87,7 @@ pub fn long_run(state: &mut State) -> anyhow::Result<()> {
     ensure!(tally.unreadable == 0 && tally.disconnected == 0, "not all could be read: {tally:?}");
     println!("{} pad and {} key reports, none lost, none doubled", tally.pad.count, tally.keyboard.count);
     server.check()?;
-    rig.quit(0)
+    rig.quit()
 }
 
 /// A report that carries a number, where a real pad has its yaw gyroscope, and moves with it.

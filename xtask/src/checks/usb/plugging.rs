@@ -1,5 +1,8 @@
 //! Devices that come, go, come again and take each other's place.
 
+use std::thread;
+use std::time::Duration;
+
 use anyhow::ensure;
 use controls::DualShock3Report;
 use usb_model::dualshock3::Temper;
@@ -11,6 +14,12 @@ use crate::qemu::UsbDevice;
 
 /// Times that a keyboard is pulled out and plugged in again.
 const ROUNDS: usize = 3;
+/// A keyboard is ready after about so long: 100 ms to settle, 50 ms of reset, requests.
+const STARTED_MS: u64 = 280;
+/// From one moment at which a keyboard is torn out to the next.
+const STARTING_STEP_MS: usize = 20;
+/// By then, all is told.
+const SETTLED: Duration = Duration::from_millis(1_000);
 /// Reports that a pad says each time.
 const REPORTS: u32 = 20;
 
@@ -27,13 +36,37 @@ pub fn on_the_root_port(state: &mut State) -> anyhow::Result<()> {
         rig.unplug(&keyboard)?;
         rig.told("usb root: keyboard has gone", round)?;
     }
-    rig.quit(0)?;
+    rig.quit()?;
+    let stages = torn_out_while_it_starts(state)?;
 
     let (server, pad) = (Server::new()?, FakePad::new(0));
     let mut rig = Rig::start(state, "usb-plugging-pads", vec![server.at("1")])?;
     swap_pads(&mut rig, &server, &pad, "usb root: DualShock 3")?;
-    println!("{ROUNDS} keyboards and 4 pads came and went on the root port");
-    rig.quit(0)
+    println!("{ROUNDS} keyboards and 4 pads came and went on the root port, {stages} were torn out while they started");
+    rig.quit()
+}
+
+/// Tears keyboards out while they are being asked who they are, each a bit later than the one before;
+/// then one works. Returns how many were torn out.
+fn torn_out_while_it_starts(state: &State) -> anyhow::Result<usize> {
+    let keyboard = UsbDevice::keyboard("1");
+    let mut rig = Rig::start(state, "usb-torn-out", Vec::new())?;
+    let moments: Vec<u64> = (0..=STARTED_MS).step_by(STARTING_STEP_MS).collect();
+    for milliseconds in &moments {
+        rig.plug(&keyboard)?;
+        thread::sleep(Duration::from_millis(*milliseconds));
+        rig.unplug(&keyboard)?;
+        thread::sleep(Duration::from_millis(STARTING_STEP_MS as u64));
+    }
+    // The last one's news may still be on its way.
+    thread::sleep(SETTLED);
+    let before = rig.count("usb root: keyboard (");
+    ensure!(before < moments.len(), "every keyboard was ready before it was torn out");
+    rig.plug(&keyboard)?;
+    rig.told("usb root: keyboard (", before + 1)?;
+    type_a_key(&mut rig, 0)?;
+    rig.quit_whatever_went_wrong()?;
+    Ok(moments.len())
 }
 
 /// The same behind a hub, the keyboard and the pad at once.
@@ -56,7 +89,7 @@ pub fn behind_a_hub(state: &mut State) -> anyhow::Result<()> {
     typed += type_a_key(&mut rig, typed)?;
     ensure!(rig.status()?.tally.keyboard.count == typed, "the keyboard's reports are not all there");
     println!("{ROUNDS} keyboards and 4 pads came and went behind a hub");
-    rig.quit(0)
+    rig.quit()
 }
 
 /// Types a key; returns how many reports that made.

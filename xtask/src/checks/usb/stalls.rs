@@ -45,7 +45,7 @@ pub fn stalled_requests(state: &mut State) -> anyhow::Result<()> {
         ensure!(tally.pad == pad.said(), "the pad said {:?}, the firmware took in {:?}", pad.said(), tally.pad);
         println!("a pad that refuses {name} its feature reports: {REPORTS} reports");
         server.check()?;
-        rig.quit(0)?;
+        rig.quit()?;
     }
     Ok(())
 }
@@ -108,7 +108,7 @@ fn measured(
     let rate = f64::from(after.frames - before.frames) / seconds;
     let slowest = after.slowest_frame_ticks;
     println!("{what}: {rate:.2} frames a second over {seconds:.1} s, the slowest took {slowest} µs");
-    rig.quit(0)?;
+    rig.quit()?;
     Ok((rate, slowest))
 }
 

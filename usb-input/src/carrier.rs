@@ -1,0 +1,129 @@
+//! Those who carry what is to be said to the controller: all that depends on its type.
+
+use core::convert::Infallible;
+use core::future::{Future, pending, poll_fn};
+use core::task::Poll;
+use core::time::Duration;
+
+use embassy_futures::join::join;
+use embassy_futures::select::{Either, select};
+use embassy_usb_driver::host::{
+    HostError, PipeError, TimeoutConfig, UsbHostAllocator, UsbHostController, UsbPipe, pipe,
+};
+use embassy_usb_driver::{Direction, EndpointAddress, EndpointInfo, EndpointType};
+
+use crate::Memory;
+use crate::mailbox::{Mailbox, Outcome, Request, TransferError, Way};
+use crate::root::Root;
+use crate::slots::SlotIndex;
+use crate::timing::{CONTROL_TIMEOUT_US, STAGE_TIMEOUT_US};
+
+/// How often a control transfer that was garbled on the way is sent.
+const TRIES: u32 = 3;
+
+/// Carries between one slot's mailbox and the controller, for one device after the other.
+pub(crate) async fn slot<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, slot: SlotIndex) -> Infallible {
+    let mailbox = memory.mailbox(slot);
+    loop {
+        mailbox.until_open(true).await;
+        let both = join(transfers(memory, allocator, mailbox), packets(memory, allocator, mailbox));
+        select(both, mailbox.until_open(false)).await;
+    }
+}
+
+/// Carries between the root port and the controller.
+pub(crate) async fn root_port<'d, C: UsbHostController<'d>>(root: &Root, mut controller: C) -> Infallible {
+    loop {
+        match select(controller.wait_for_device_event(), root.reset_wanted()).await {
+            Either::First(event) => root.put_event(event).await,
+            Either::Second(()) => {
+                controller.bus_reset().await;
+                root.reset_done();
+            }
+        }
+    }
+}
+
+/// Carries out the transfers that are wanted, one after the other.
+#[expect(clippy::await_holding_refcell_ref, reason = "nobody else takes the data while a transfer is under way")]
+async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, mailbox: &Mailbox) -> Infallible {
+    loop {
+        let request = mailbox.next_request().await;
+        let answer = {
+            let mut data = mailbox.data_mut(request.length.into());
+            let packets = data.len().div_ceil(request.way.packet.into()).max(1) as u64;
+            let limit_us = CONTROL_TIMEOUT_US.min(packets * STAGE_TIMEOUT_US);
+            match select(transfer(allocator, &request, &mut data), memory.sleep(limit_us)).await {
+                Either::First(outcome) => outcome,
+                Either::Second(()) => Err(TransferError::Pipe(PipeError::Timeout)),
+            }
+        };
+        mailbox.put_answer(answer.map(|count| count.min(request.length.into())));
+    }
+}
+
+async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request, data: &mut [u8]) -> Outcome {
+    let Some(setup) = request.setup else {
+        let mut pipe = take_pipe::<A, pipe::Interrupt, pipe::Out>(allocator, &request.way).await?;
+        return pipe.request_out(data, false).await.map(|()| data.len()).map_err(TransferError::Pipe);
+    };
+    let mut pipe = take_pipe::<A, pipe::Control, pipe::InOut>(allocator, &request.way).await?;
+    let mut timeout = TimeoutConfig::default();
+    timeout.data_timeout = Duration::from_micros(STAGE_TIMEOUT_US);
+    timeout.no_data_timeout = Duration::from_micros(STAGE_TIMEOUT_US);
+    pipe.set_timeout(timeout);
+    let packet = setup.bytes(request.length);
+    let mut tries = 1;
+    loop {
+        let outcome = if setup.reads() {
+            pipe.control_in(&packet, data).await
+        } else {
+            pipe.control_out(&packet, data).await.map(|()| data.len())
+        };
+        match outcome {
+            Err(PipeError::BadResponse | PipeError::DataToggleError | PipeError::Canceled) if tries < TRIES => {
+                tries += 1;
+            }
+            outcome => return outcome.map_err(TransferError::Pipe),
+        }
+    }
+}
+
+/// Brings the packets of the endpoint that is listened to.
+#[expect(clippy::await_holding_refcell_ref, reason = "nobody else takes the packet until it has arrived")]
+async fn packets<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, mailbox: &Mailbox) -> Infallible {
+    let way = mailbox.next_listening().await;
+    let pipe = take_pipe::<A, pipe::Interrupt, pipe::In>(allocator, &way);
+    let error = match select(pipe, memory.sleep(STAGE_TIMEOUT_US)).await {
+        Either::First(Ok(mut pipe)) => loop {
+            // A slice of exactly one packet: it ends with that, whatever a controller makes of a longer one.
+            let arrival = pipe.request_in(&mut mailbox.packet_mut(way.packet)).await;
+            if mailbox.put_packet(arrival.map_err(TransferError::Pipe)).await {
+                pipe.reset_data_toggle();
+            }
+        },
+        Either::First(Err(error)) => error,
+        Either::Second(()) => TransferError::NoPipe,
+    };
+    mailbox.put_packet(Err(error)).await;
+    pending().await
+}
+
+/// Takes a pipe to an endpoint, waiting for one as long as the caller waits.
+fn take_pipe<'d, A: UsbHostAllocator<'d>, T: pipe::Type, D: pipe::Direction>(
+    allocator: &A,
+    way: &Way,
+) -> impl Future<Output = Result<A::Pipe<T, D>, TransferError>> {
+    let endpoint = EndpointInfo {
+        addr: EndpointAddress::from_parts(way.endpoint.into(), if D::is_in() { Direction::In } else { Direction::Out }),
+        ep_type: if way.endpoint == 0 { EndpointType::Control } else { EndpointType::Interrupt },
+        max_packet_size: way.packet,
+        interval_ms: way.interval_ms,
+    };
+    poll_fn(move |_| match allocator.alloc_pipe::<T, D>(way.address, &endpoint, way.split) {
+        Ok(pipe) => Poll::Ready(Ok(pipe)),
+        Err(HostError::OutOfPipes) => Poll::Pending,
+        Err(HostError::PipeError(error)) => Poll::Ready(Err(TransferError::Pipe(error))),
+        Err(_) => Poll::Ready(Err(TransferError::NoPipe)),
+    })
+}

@@ -1,0 +1,240 @@
+//! What the FPGA's design takes of the device, as Yosys maps it: measured, written into
+//! `rtl/README.md`, read from there.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, bail, ensure};
+use serde::Deserialize;
+
+use crate::measure::Measurement;
+use crate::paths::{target_folder, workspace_root};
+use crate::verilated::UNITS;
+
+const README: &str = "rtl/README.md";
+const BEGIN: &str = "<!-- area: written by `cargo xtask area` -->";
+const END: &str = "<!-- end of area -->";
+/// What a 5CSEMA5 has: adaptive logic modules, flip-flops (four a module), memory blocks, multiplier blocks.
+const LIMITS: [u32; 4] = [32_070, 4 * 32_070, 397, 87];
+/// Memory blocks that the project allows a number of pixel units.
+const M10K_MAX: [(u32, u32); 2] = [(8, 320), (4, 310)];
+
+/// The design's area with one number of pixel units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Area {
+    /// Pixel units.
+    pub units: u32,
+    /// Look-up tables and adder bits.
+    pub aluts: u32,
+    /// Flip-flops.
+    pub flip_flops: u32,
+    /// Memory blocks.
+    pub m10k: u32,
+    /// Multiplier blocks.
+    pub dsp: u32,
+    /// Cells on the longest path between flip-flops or memories.
+    pub longest_path: u32,
+}
+
+#[derive(Deserialize)]
+struct Statistics {
+    design: Design,
+}
+
+#[derive(Deserialize)]
+struct Design {
+    num_cells_by_type: BTreeMap<String, u32>,
+}
+
+/// Synthesizes the design for the Cyclone V.
+///
+/// # Errors
+/// When Yosys fails (its log is named), or when memories became flip-flops or too many blocks.
+pub fn synthesize(yosys: &Path, units: u32) -> anyhow::Result<Area> {
+    let folder = target_folder().join("area");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let file = |kind: &str| folder.join(format!("n{units}.{kind}"));
+    let (log, statistics, path) = (file("log"), file("json"), file("path"));
+    let output = Command::new(yosys)
+        .current_dir(workspace_root())
+        .args(["-Q", "-q", "-l"])
+        .arg(&log)
+        .args(["-p", &script(units, &statistics, &path)])
+        .output()
+        .with_context(|| format!("cannot start {}", yosys.display()))?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        let last = said.lines().last().unwrap_or("nothing said");
+        bail!("Yosys failed with {units} pixel units ({last}): see {}", log.display());
+    }
+    let text = fs::read_to_string(&statistics).with_context(|| format!("cannot read {}", statistics.display()))?;
+    let Statistics { design } = serde_json::from_str(&text).context("Yosys' statistics are not as expected")?;
+    let path = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let area = Area::new(units, &design.num_cells_by_type, &path)?;
+    area.check()?;
+    Ok(area)
+}
+
+/// Yosys' memory block has one clock, so VGA's is taken for the bus's: that changes no count.
+fn script(units: u32, statistics: &Path, path: &Path) -> String {
+    format!(
+        "read_slang -j 1 -D SYNTHESIS -F rtl/files.f --top halfspace -G PixelUnits={units}; \
+         delete -port halfspace/vga_clk_i; connect -set vga_clk_i clk_i; \
+         synth_intel_alm -family cyclonev -top halfspace -noiopad -noclkbuf; \
+         tee -q -o {} stat -json; delete t:MISTRAL_FF t:MISTRAL_M10K; tee -q -o {} ltp",
+        statistics.display(),
+        path.display()
+    )
+}
+
+impl Area {
+    fn new(units: u32, cells: &BTreeMap<String, u32>, path: &str) -> anyhow::Result<Self> {
+        let sum = |begin: &str| cells.iter().filter(|(name, _)| name.starts_with(begin)).map(|(_, count)| count).sum();
+        let length = path.split("(length=").nth(1).and_then(|rest| rest.split(')').next());
+        let longest_path = length.and_then(|text| text.parse().ok()).context("Yosys named no longest path")?;
+        Ok(Self {
+            units,
+            aluts: sum("MISTRAL_ALUT"),
+            flip_flops: sum("MISTRAL_FF"),
+            m10k: sum("MISTRAL_M10K"),
+            dsp: sum("MISTRAL_MUL"),
+            longest_path,
+        })
+    }
+
+    /// Two look-up tables or adder bits fit in an adaptive logic module; not all pairs do.
+    fn alms_at_least(&self) -> u32 {
+        self.aluts.div_ceil(2)
+    }
+
+    /// Both buffers and depth are 2.4 million bits: flip-flops could not hold a part of them unseen.
+    fn check(&self) -> anyhow::Result<()> {
+        let Self { units, m10k, flip_flops, .. } = *self;
+        ensure!(m10k >= 300 && flip_flops < 20_000, "{units} pixel units: memories became flip-flops ({flip_flops})");
+        for (_, most) in M10K_MAX.iter().filter(|(of, _)| *of == units) {
+            ensure!(
+                m10k <= *most,
+                "{units} pixel units take {m10k} M10K, more than the {most} that the project allows"
+            );
+        }
+        Ok(())
+    }
+}
+
+/// Returns the block of the README for these areas.
+pub fn block(areas: &[Area]) -> String {
+    let mut text = format!(
+        "{BEGIN}\n| pixel units | ALUTs | ALMs, at least | flip-flops | M10K | DSP | longest path, cells |\n\
+         | --- | --- | --- | --- | --- | --- | --- |\n"
+    );
+    for area in areas {
+        let Area { units, aluts, flip_flops, m10k, dsp, longest_path } = area;
+        let alms = area.alms_at_least();
+        text.push_str(&format!("| {units} | {aluts} | {alms} | {flip_flops} | {m10k} | {dsp} | {longest_path} |\n"));
+    }
+    let [alms, flip_flops, m10k, dsp] = LIMITS;
+    text.push_str(&format!("| 5CSEMA5 has | | {alms} | {flip_flops} | {m10k} | {dsp} | |\n{END}"));
+    text
+}
+
+/// Returns the README's path and its text before, in and behind the block.
+fn readme() -> anyhow::Result<(PathBuf, [String; 3])> {
+    let path = workspace_root().join(README);
+    let text = fs::read_to_string(&path).with_context(|| format!("cannot read {README}"))?;
+    let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?)));
+    let (before, (inside, behind)) =
+        parts.with_context(|| format!("{README} has lost its area table: put the lines `{BEGIN}` and `{END}` back"))?;
+    let parts = [before, inside, behind].map(str::to_string);
+    Ok((path, parts))
+}
+
+/// Writes the block, and returns whether it was another before.
+///
+/// # Errors
+/// When the README cannot be read or written, or has lost the lines around the block.
+pub fn write(areas: &[Area]) -> anyhow::Result<bool> {
+    let (path, [before, inside, behind]) = readme()?;
+    let block = block(areas);
+    let changed = format!("{BEGIN}{inside}{END}") != block;
+    fs::write(&path, format!("{before}{block}{behind}")).with_context(|| format!("cannot write {README}"))?;
+    Ok(changed)
+}
+
+/// Returns the areas that the README holds.
+///
+/// # Errors
+/// When it has no such table.
+pub fn committed() -> anyhow::Result<Vec<Area>> {
+    let (_, [_, inside, _]) = readme()?;
+    let areas: Vec<Area> = inside.lines().filter_map(parse_row).collect();
+    let units: Vec<u32> = areas.iter().map(|area| area.units).collect();
+    ensure!(units == UNITS, "the area table in {README} has rows for {units:?}: run `cargo xtask area`");
+    Ok(areas)
+}
+
+fn parse_row(line: &str) -> Option<Area> {
+    let numbers: Vec<u32> = line.trim_matches('|').split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
+    let [units, aluts, _, flip_flops, m10k, dsp, longest_path] = *numbers.as_slice() else { return None };
+    Some(Area { units, aluts, flip_flops, m10k, dsp, longest_path })
+}
+
+/// Returns the committed areas by the names of `cargo xtask bench`.
+///
+/// # Errors
+/// As [`committed`].
+pub fn measurements() -> anyhow::Result<Vec<Measurement>> {
+    let figures = |area: &Area| {
+        let name = |what: &str| format!("rtl.n{}.{what}", area.units);
+        [("m10k", area.m10k, "blocks"), ("aluts", area.aluts, "ALUTs"), ("dsp", area.dsp, "blocks")]
+            .map(|(what, value, unit)| Measurement::new(&name(what), f64::from(value), unit))
+    };
+    Ok(committed()?.iter().flat_map(figures).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area() -> Area {
+        Area { units: 8, aluts: 8067, flip_flops: 4291, m10k: 316, dsp: 0, longest_path: 71 }
+    }
+
+    #[test]
+    fn cells_are_counted_by_kind() {
+        let cells = [
+            ("MISTRAL_ALUT2", 7),
+            ("MISTRAL_ALUT_ARITH", 5),
+            ("MISTRAL_FF", 3),
+            ("MISTRAL_M10K", 2),
+            ("MISTRAL_MUL18X18", 1),
+        ];
+        let cells = cells.into_iter().map(|(name, count)| (name.to_string(), count)).collect();
+        let area =
+            Area::new(4, &cells, "\nLongest topological path in halfspace (length=71):\n 0: x").expect("it is whole");
+        assert_eq!(area, Area { units: 4, aluts: 12, flip_flops: 3, m10k: 2, dsp: 1, longest_path: 71 });
+        assert_eq!(area.alms_at_least(), 6);
+        assert!(Area::new(4, &cells, "no path").is_err());
+    }
+
+    #[test]
+    fn memories_that_became_flip_flops_are_noticed() {
+        assert!(area().check().is_ok());
+        let error = Area { m10k: 20, flip_flops: 2_400_000, ..area() }.check().expect_err("not memories").to_string();
+        assert!(error.contains("became flip-flops"), "{error}");
+        let error = Area { m10k: 321, ..area() }.check().expect_err("too many").to_string();
+        assert!(error.contains("321 M10K, more than the 320"), "{error}");
+    }
+
+    #[test]
+    fn rows_come_back_from_the_table() {
+        let block = block(&[area()]);
+        assert_eq!(block.lines().filter_map(parse_row).collect::<Vec<_>>(), [area()], "{block}");
+    }
+
+    #[test]
+    fn the_committed_table_is_whole() {
+        assert_eq!(committed().expect("a table").len(), UNITS.len());
+    }
+}
