@@ -39,6 +39,7 @@ module halfspace_sim
     output logic [15:0]                      debug_free_o,
     output logic                             debug_swap_pending_o,
     output logic                             debug_swap_waits_o,  // for the vertical blank alone
+    output logic                             debug_front_o,
     output logic                             debug_tile_o
 );
 
@@ -60,6 +61,7 @@ module halfspace_sim
   assign debug_free_o         = u_device.status.fifo_free;
   assign debug_swap_pending_o = u_device.status.swap_pending;
   assign debug_swap_waits_o   = u_device.swap_valid && u_device.drained;
+  assign debug_front_o        = u_device.status.front_buffer;
   assign debug_tile_o         = u_device.tile_valid;
 
 endmodule

@@ -2,6 +2,8 @@
 
 pub mod faulty;
 pub mod model;
+#[cfg(feature = "rtl")]
+pub mod rtl;
 pub mod vga;
 
 use fpga_regs::screen::{HEIGHT, Rgb332, WIDTH};
@@ -74,5 +76,5 @@ pub trait Fpga {
     }
 
     /// Resets the design, as the processor's reset does.
-    fn reset(&mut self);
+    fn reset(&mut self, now: Clocks);
 }

@@ -161,9 +161,14 @@ impl Machine {
     /// # Errors
     /// As [`run_until`](Self::run_until).
     pub fn screen(&mut self) -> Result<Option<Screen>, Violation> {
-        let whole = self.bus.hardware().fpga.scanned_out(self.now());
-        let left = whole.saturating_sub(self.now()).min(SCAN_OUT);
-        self.run(left)?;
+        let end = self.now() + SCAN_OUT;
+        loop {
+            let whole = self.bus.hardware().fpga.scanned_out(self.now()).min(end);
+            if whole <= self.now() {
+                break;
+            }
+            self.run(whole - self.now())?;
+        }
         Ok(self.bus.hardware().fpga.screen())
     }
 
@@ -176,7 +181,7 @@ impl Machine {
     pub fn set_fpga_configured(&mut self, configured: bool) {
         let mut hardware = self.bus.hardware();
         hardware.fpga_manager.set_configured(configured);
-        hardware.design_starts();
+        hardware.design_starts(self.now());
     }
 
     /// Returns bytes of the SDRAM.

@@ -129,7 +129,7 @@ impl Hardware {
         self.uart0.restart();
         self.usb.reset(now, bus);
         self.resets = self.resets.after(cause);
-        self.design_starts();
+        self.design_starts(now);
         self.fpga_manager.restart();
         self.gic = Gic::default();
         self.clocks = ClockManager::default();
@@ -146,8 +146,8 @@ impl Hardware {
     }
 
     /// Starts the design afresh: the FPGA was configured.
-    pub fn design_starts(&mut self) {
-        self.fpga.reset();
+    pub fn design_starts(&mut self, now: Clocks) {
+        self.fpga.reset(now);
         self.board_io.reset();
     }
 
@@ -270,7 +270,7 @@ impl Hardware {
             let configured = self.fpga_manager.configured();
             let done = self.dispatch(block, access, address - row.start, now, bus)?;
             if !configured && self.fpga_manager.configured() {
-                self.design_starts();
+                self.design_starts(now);
             }
             self.wire(now);
             Ok(done)

@@ -102,8 +102,8 @@ impl Fpga for Faulty {
         self.inner.scanned_out(now)
     }
 
-    fn reset(&mut self) {
+    fn reset(&mut self, now: Clocks) {
         (self.stuck, self.overflow) = (0, false);
-        self.inner.reset();
+        self.inner.reset(now);
     }
 }

@@ -191,7 +191,7 @@ impl Fpga for Model {
         Some(Screen::doubled(self.device.borrow_dependent().front()))
     }
 
-    fn reset(&mut self) {
+    fn reset(&mut self, _: Clocks) {
         *self = Self { shown: self.shown, ..Self::default() };
     }
 }
