@@ -44,6 +44,38 @@ constexpr uint64_t kSettled = 64;
 constexpr uint64_t kLeftOut = 1560;
 constexpr uint64_t kCarry = 6;
 
+// Nothing in the design looks at a falling edge. So where the name is known under which Verilator keeps a
+// clock's last level (5.006's, 5.020's), that is set instead of evaluating all for nothing: half the work.
+// Returns whether it was.
+template <typename Root>
+auto bus_clock_falls(Root* root, int) -> decltype(root->__Vtrigrprev__TOP__clk_i, bool()) {
+  root->__Vtrigrprev__TOP__clk_i = 0;
+  return true;
+}
+template <typename Root>
+auto bus_clock_falls(Root* root, int) -> decltype(root->__Vtrigprevexpr___TOP__clk_i__0, bool()) {
+  root->__Vtrigprevexpr___TOP__clk_i__0 = 0;
+  return true;
+}
+template <typename Root>
+bool bus_clock_falls(Root*, long) {
+  return false;
+}
+template <typename Root>
+auto vga_clock_falls(Root* root, int) -> decltype(root->__Vtrigrprev__TOP__vga_clk_i, bool()) {
+  root->__Vtrigrprev__TOP__vga_clk_i = 0;
+  return true;
+}
+template <typename Root>
+auto vga_clock_falls(Root* root, int) -> decltype(root->__Vtrigprevexpr___TOP__vga_clk_i__0, bool()) {
+  root->__Vtrigprevexpr___TOP__vga_clk_i__0 = 0;
+  return true;
+}
+template <typename Root>
+bool vga_clock_falls(Root*, long) {
+  return false;
+}
+
 struct Sim {
   VerilatedContext context;
   // No pool of threads that would only wait; all signals are kept where waves are built in.
@@ -94,7 +126,7 @@ struct Sim {
     model.eval();
     show_at(wave_time + kVgaHalf);
     model.vga_clk_i = 0;
-    model.eval();
+    if (VM_TRACE || !vga_clock_falls(model.rootp, 0)) model.eval();
     show_at(wave_time + kVgaHalf);
     vga_clocks++;
     if (scan.empty()) return;
@@ -128,7 +160,7 @@ struct Sim {
     model.eval();
     show_at(start + kBusRises);
     model.clk_i = 0;
-    model.eval();
+    if (VM_TRACE || !bus_clock_falls(model.rootp, 0)) model.eval();
     show_at(start + kBusFalls);
     clocks++;
     tiles += model.debug_tile_o;
@@ -179,15 +211,6 @@ struct Sim {
     root->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q = line;
   }
 };
-
-template <typename T>
-uint32_t bits(const T& port, int low, int width) {
-  if constexpr (std::is_integral_v<T>) {
-    return static_cast<uint32_t>((static_cast<uint64_t>(port) >> low) & ((uint64_t{1} << width) - 1));
-  } else {
-    return (port[low / 32] >> (low % 32)) & ((1u << width) - 1);
-  }
-}
 
 }  // namespace
 
@@ -326,19 +349,36 @@ uint32_t NAME(_rest)(Sim* sim, uint64_t limit) {
 
 // Reads the memories as they are, row 0 first; takes no time.
 void NAME(_memory)(Sim* sim, uint8_t* colour0, uint8_t* colour1, uint16_t* depth) {
-  auto& model = sim->model;
-  for (int row = 0; row < kHeight; row += kTileHeight) {
-    for (int column = 0; column < kWidth; column += kTileWidth) {
-      model.debug_index_i = row / kTileHeight * (kWidth / kTileWidth) + column / kTileWidth;
-      model.eval();
-      for (int k = 0; k < UNITS; k++) {
-        const int at = (row + k / kTileWidth) * kWidth + column + k % kTileWidth;
-        colour0[at] = bits(model.debug_colour_o, k * 16, 8);
-        colour1[at] = bits(model.debug_colour_o, k * 16 + 8, 8);
-        depth[at] = bits(model.debug_depth_o, k * 16, 16);
-      }
+  auto* root = sim->model.rootp;
+  const auto unit = [&](int k, const auto& depths, const auto& colours) {
+    constexpr int kTiles = kWidth / kTileWidth * (kHeight / kTileHeight);
+    for (int tile = 0; tile < kTiles; tile++) {
+      const int row = tile / (kWidth / kTileWidth) * kTileHeight + k / kTileWidth;
+      const int at = row * kWidth + tile % (kWidth / kTileWidth) * kTileWidth + k % kTileWidth;
+      colour0[at] = colours[2 * tile];
+      colour1[at] = colours[2 * tile + 1];
+      depth[at] = depths[tile];
     }
-  }
+  };
+#define UNIT(k, memory) \
+  root->halfspace_sim__DOT__u_device__DOT__g_unit__BRA__##k##__KET____DOT__u_unit__DOT__##memory##__DOT__mem
+#define TAKE(k) unit(k, UNIT(k, u_depth), UNIT(k, u_colour))
+  TAKE(0);
+#if UNITS >= 2
+  TAKE(1);
+#endif
+#if UNITS >= 4
+  TAKE(2);
+  TAKE(3);
+#endif
+#if UNITS >= 8
+  TAKE(4);
+  TAKE(5);
+  TAKE(6);
+  TAKE(7);
+#endif
+#undef TAKE
+#undef UNIT
 }
 
 // Gives VGA a clock and returns its pins: red, green, blue in bits 23...0, then hsync, vsync, blank.
