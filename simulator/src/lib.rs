@@ -11,6 +11,7 @@
 //! | [`devices`] | every block of registers |
 //! | [`fpga`] | the FPGA's design, behind a trait |
 //! | [`time`] | virtual time |
+//! | [`remote`], `live` | a machine that another program orders about; one in a window (feature `window`) |
 //! | [`violation`] | why a run was stopped |
 //!
 //! An access to something that is not modelled, held in reset, without a clock or behind a closed
@@ -22,8 +23,11 @@ pub mod cpu;
 pub mod devices;
 pub mod fpga;
 pub mod image;
+#[cfg(feature = "window")]
+pub mod live;
 pub mod machine;
 pub mod memory;
+pub mod remote;
 pub mod time;
 pub mod violation;
 

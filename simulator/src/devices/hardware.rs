@@ -208,7 +208,7 @@ impl Hardware {
     }
 
     /// Returns whether the USB controller is out of reset and clocked.
-    fn usb_runs(&self) -> bool {
+    pub fn usb_runs(&self) -> bool {
         !self.resets.holds_peripheral(map::USB1_RESET) && self.clocks.runs(map::USB_MP)
     }
 
