@@ -11,6 +11,7 @@ use fpga_regs::registers::{Capabilities, Register, Status};
 
 use crate::calls::{Calls, UNITS_1, UNITS_2, UNITS_4, UNITS_8};
 use crate::memories::Memories;
+use crate::vga::Frame;
 
 /// The numbers of pixel units that there are builds for.
 pub const UNITS: [u32; 4] = [1, 2, 4, 8];
@@ -92,6 +93,54 @@ impl Rtl {
     pub fn set_hurry(&mut self, on: bool) {
         // Safety: as above.
         unsafe { (self.calls.hurry)(self.sim, on.into()) }
+    }
+
+    /// Runs the bus clock as [`clock`](Rtl::clock) does, but may leave clocks out in which nothing
+    /// changes except time: nothing is under way, or a swap waits for the vertical blank alone. VGA's
+    /// clocks all run. Returns how many were left out: [`clocks`](Rtl::clocks) lacks them, and so do BUSY_CYCLES
+    /// and STALLED_CYCLES where a swap waited.
+    ///
+    /// A swap then takes place up to a line of VGA later, and nothing else differs.
+    pub fn run(&mut self, count: u64) -> u64 {
+        // Safety: as above.
+        unsafe { (self.calls.run)(self.sim, count, 1) }
+    }
+
+    /// Returns how many swaps took place.
+    pub fn swaps(&self) -> u64 {
+        // Safety: as above.
+        unsafe { (self.calls.swaps)(self.sim) }
+    }
+
+    /// Takes every picture from the VGA pins from now on, or none any more.
+    pub fn set_scan(&mut self, on: bool) {
+        // Safety: as above.
+        unsafe { (self.calls.scan)(self.sim, on.into()) }
+    }
+
+    /// Returns the last whole picture that was taken from the pins, and how many swaps came before it.
+    pub fn scanned(&self) -> Option<(Frame, u64)> {
+        let (mut pixels, mut swaps) = (vec![[0; 3]; Frame::PIXELS], 0);
+        // Safety: as above; `pixels` has room for three bytes of each.
+        let there = unsafe { (self.calls.scanned)(self.sim, pixels.as_mut_ptr().cast(), &mut swaps) != 0 };
+        there.then(|| (Frame::of(pixels), swaps))
+    }
+
+    /// Returns how many swaps came before the last whole picture.
+    pub fn swaps_scanned(&self) -> Option<u64> {
+        let mut swaps = 0;
+        // Safety: as above; no pixels are asked for.
+        let there = unsafe { (self.calls.scanned)(self.sim, std::ptr::null_mut(), &mut swaps) != 0 };
+        there.then_some(swaps)
+    }
+
+    /// Returns in how many VGA clocks, at most, the next picture is whole, and how many swaps came
+    /// before it; more may come while VGA is in its blank.
+    pub fn scan_left(&self) -> (u64, u64) {
+        let mut swaps = 0;
+        // Safety: as above.
+        let left = unsafe { (self.calls.scan_left)(self.sim, &mut swaps) };
+        (left, swaps)
     }
 
     /// Turns the test-pattern switch.

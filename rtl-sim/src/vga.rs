@@ -41,6 +41,14 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Pixels of a frame.
+    pub const PIXELS: usize = LINE[0] * FRAME[0];
+
+    /// Returns a frame of these pixels, row 0 first.
+    pub(crate) fn of(pixels: Vec<[u8; 3]>) -> Self {
+        Self { pixels }
+    }
+
     /// Takes the next whole frame from the pins, checking every clock of it against the timing of
     /// 640×480 at 60 Hz.
     ///

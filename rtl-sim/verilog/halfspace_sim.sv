@@ -1,6 +1,4 @@
-// The device and, in simulation only, a window into its pixel memories.
-//
-// `debug_index_i` names a tile; the outputs show its pixels, unit by unit, without a clock.
+// The device and, in simulation only, some of its state as outputs.
 `default_nettype none
 
 module halfspace_sim
@@ -32,17 +30,13 @@ module halfspace_sim
     output logic        vga_blank_no,
     output logic        vga_sync_no,
 
-    input  logic [16:0]                      debug_index_i,
-    output logic [PixelUnits-1:0][1:0][7:0]  debug_colour_o,
-    output logic [PixelUnits-1:0][15:0]      debug_depth_o,
     output logic                             debug_busy_o,
     output logic [15:0]                      debug_free_o,
     output logic                             debug_swap_pending_o,
     output logic                             debug_swap_waits_o,  // for the vertical blank alone
+    output logic                             debug_front_o,
     output logic                             debug_tile_o
 );
-
-  localparam int unsigned IndexWidth = $clog2(Width * Height / PixelUnits);
 
   halfspace #(
       .PixelUnits  (PixelUnits),
@@ -50,16 +44,11 @@ module halfspace_sim
       .FifoPatience(FifoPatience)
   ) u_device (.*);
 
-  for (genvar k = 0; k < PixelUnits; k++) begin : g_debug
-    assign debug_depth_o[k]     = u_device.g_unit[k].u_unit.u_depth.mem[debug_index_i[IndexWidth-1:0]];
-    assign debug_colour_o[k][0] = u_device.g_unit[k].u_unit.u_colour.mem[{debug_index_i[IndexWidth-1:0], 1'b0}];
-    assign debug_colour_o[k][1] = u_device.g_unit[k].u_unit.u_colour.mem[{debug_index_i[IndexWidth-1:0], 1'b1}];
-  end
-
   assign debug_busy_o         = u_device.status.busy;
   assign debug_free_o         = u_device.status.fifo_free;
   assign debug_swap_pending_o = u_device.status.swap_pending;
   assign debug_swap_waits_o   = u_device.swap_valid && u_device.drained;
+  assign debug_front_o        = u_device.status.front_buffer;
   assign debug_tile_o         = u_device.tile_valid;
 
 endmodule

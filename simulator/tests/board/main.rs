@@ -1,0 +1,5 @@
+//! Small programs on the simulated board.
+
+mod access;
+mod caches;
+mod common;
