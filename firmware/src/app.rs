@@ -10,7 +10,8 @@ use crate::board::Board;
 use crate::frame::{FrameMemory, draw_frame};
 use crate::intake::Intake;
 use crate::link::{self, BoardMessage, FrameReport, HostMessage, Status};
-use crate::scene::{MeshMemory, Meshes, Scene};
+use crate::scene::Scene;
+use crate::scene::meshes::{MeshMemory, Meshes};
 use crate::viewer::Viewer;
 
 /// Memory that the application works in; large, so a static.
@@ -119,9 +120,9 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         if self.viewer.style() != style_before {
             let _ = writeln!(self.board.console(), "style: {}", self.viewer.style().name());
         }
-        let view = self.viewer.view(&state);
+        let stage = self.viewer.stage(&state);
         let Self { board, renderer, meshes, frame_memory, .. } = self;
-        let report = draw_frame((meshes, scene), &view, frame_memory, renderer, || board.ticks())?;
+        let report = draw_frame(meshes, &stage, frame_memory, renderer, || board.ticks())?;
         let checksum = if self.stepping { self.board.picture_checksum(self.renderer.port()) } else { None };
         let report = FrameReport { index: self.frame, checksum, ..report };
         self.frame = self.frame.wrapping_add(1);

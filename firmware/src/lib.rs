@@ -3,9 +3,11 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`app`] | the application: controllers in, frames out |
-//! | [`viewer`] | from what the controllers say to matrices |
-//! | [`scene`] | what there is to look at |
-//! | [`frame`] | one frame: a mesh to packets, and these to the FPGA |
+//! | [`viewer`] | which scene is shown, and how |
+//! | [`act`] | what each scene does: from what the controllers say to a stage |
+//! | [`scene`] | what there is to look at: meshes, and a stage of them with camera and light |
+//! | [`style`] | how scenes are drawn |
+//! | [`frame`] | one frame: a stage to packets, and these to the FPGA |
 //! | [`intake`] | what controllers say, taken in and tallied |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
@@ -32,6 +34,7 @@
 ))]
 compile_error!("of the features `vexpress-a9`, `raspi2b` and `de1-soc` each names a board: choose one");
 
+pub mod act;
 pub mod app;
 pub mod armv7a;
 pub mod board;

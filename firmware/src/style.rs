@@ -1,10 +1,10 @@
-//! How a mesh is drawn, whatever the scene.
+//! How scenes are drawn.
 
 use fpga_regs::packet::PixelMode;
 use fpga_regs::screen::Rgb332;
 use geometry::LineStyle;
 
-/// A way to draw a mesh.
+/// A way to draw meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Style {
     /// A colour a face, lit by its normal.
@@ -18,6 +18,51 @@ pub enum Style {
     HiddenLines,
     /// Depth as grey, the farther the darker.
     DepthGrey,
+}
+
+/// How space becomes flat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Projection {
+    /// The farther, the smaller.
+    #[default]
+    Perspective,
+    /// Parallel.
+    Orthographic,
+}
+
+impl Projection {
+    /// Returns the other projection.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Perspective => Self::Orthographic,
+            Self::Orthographic => Self::Perspective,
+        }
+    }
+}
+
+/// How a scene is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Manner {
+    /// Faces or lines, and in which colours.
+    pub style: Style,
+    /// How space becomes flat.
+    pub projection: Projection,
+}
+
+/// A step of drawing a frame: every object goes through it before the next one begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pass {
+    /// Faces, a colour each.
+    Flat,
+    /// Faces, a colour a corner.
+    Smooth,
+    /// Faces' depth alone, to hide lines.
+    Hiding,
+    /// Faces, depth as grey.
+    DepthGrey,
+    /// Edges.
+    Lines,
 }
 
 impl Style {
@@ -35,6 +80,17 @@ impl Style {
             Style::Wire => "wireframe",
             Style::HiddenLines => "hidden lines",
             Style::DepthGrey => "depth as grey",
+        }
+    }
+
+    /// Returns the steps that it takes.
+    pub fn passes(self) -> &'static [Pass] {
+        match self {
+            Style::Flat => &[Pass::Flat],
+            Style::Smooth => &[Pass::Smooth],
+            Style::Wire => &[Pass::Lines],
+            Style::HiddenLines => &[Pass::Hiding, Pass::Lines],
+            Style::DepthGrey => &[Pass::DepthGrey],
         }
     }
 

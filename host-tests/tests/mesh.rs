@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use firmware::scene::{MAX_VERTICES, MeshMemory, Meshes, Scene, TORUS_RADIUS, TORUS_TUBE};
+use firmware::scene::meshes::{MAX_VERTICES, MeshMemory, Meshes, Shape, TORUS_RADIUS, TORUS_TUBE};
 use fixed::types::I4F28;
 use geometry::mesh::Position;
 use geometry::shapes::torus;
@@ -11,9 +11,9 @@ use geometry::{Face, Mesh, MeshError, Winding};
 use host_tests::float_matrix::{Vector, cross, dot, unit};
 use host_tests::twin::exact_position;
 
-fn with_mesh<R>(scene: Scene, look: impl FnOnce(&Mesh<'_>) -> R) -> R {
+fn with_mesh<R>(shape: Shape, look: impl FnOnce(&Mesh<'_>) -> R) -> R {
     let mut memory = Box::<MeshMemory>::default();
-    look(&Meshes::new(&mut memory).expect("the built-in meshes are well-formed").of(scene).mesh)
+    look(&Meshes::new(&mut memory).expect("the built-in meshes are well-formed").of(shape).mesh)
 }
 
 /// Every edge has a face on each side, which take it in opposite directions.
@@ -69,7 +69,7 @@ fn volume(mesh: &Mesh<'_>) -> f64 {
 
 #[test]
 fn the_torus_is_closed_large_and_turned_outwards() {
-    with_mesh(Scene::Torus, |mesh| {
+    with_mesh(Shape::Torus, |mesh| {
         assert!(mesh.faces().len() >= 4_000 && mesh.positions().len() <= MAX_VERTICES, "{}", mesh.faces().len());
         assert_closed(mesh);
         assert_normals_fit(mesh);
@@ -94,7 +94,7 @@ fn the_torus_is_closed_large_and_turned_outwards() {
 
 #[test]
 fn the_plate_has_120_faces_is_closed_and_turned_outwards() {
-    with_mesh(Scene::Plate, |mesh| {
+    with_mesh(Shape::Plate, |mesh| {
         assert_eq!((mesh.faces().len(), mesh.positions().len()), (120, 62));
         assert_closed(mesh);
         assert_normals_fit(mesh);
@@ -110,11 +110,11 @@ fn the_plate_has_120_faces_is_closed_and_turned_outwards() {
 
 #[test]
 fn every_corner_of_a_mesh_is_used() {
-    for scene in [Scene::Plate, Scene::Torus] {
-        with_mesh(scene, |mesh| {
+    for shape in [Shape::Plate, Shape::Torus] {
+        with_mesh(shape, |mesh| {
             let mut used = vec![false; mesh.positions().len()];
             mesh.faces().iter().flat_map(|face| face.corners).for_each(|corner| used[corner as usize] = true);
-            assert!(used.iter().all(|used| *used), "{scene:?}");
+            assert!(used.iter().all(|used| *used), "{shape:?}");
         });
     }
 }

@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use anyhow::Context;
 use controls::{Config, Controls};
-use firmware::scene::{MAX_VERTICES, MeshMemory, Meshes, Scene};
+use firmware::scene::Scene;
+use firmware::scene::meshes::{MAX_VERTICES, MeshMemory, Meshes, Shape};
 use firmware::viewer::Viewer;
 use fixed::types::{I4F28, I32F32};
 use fpga_regs::packet::{Clear, FlatTriangle};
@@ -108,10 +109,12 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
 pub fn on_host() -> anyhow::Result<Vec<Measurement>> {
     let mut mesh_memory = Box::<MeshMemory>::default();
     let meshes = Meshes::new(&mut mesh_memory)?;
-    let mesh = &meshes.of(Scene::Torus).mesh;
-    let view = Viewer::new(Scene::Torus).view(&Controls::new(Config::default()).state());
-    let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let light = ObjectLight::new(&view.light, &view.model);
+    let mesh = &meshes.of(Shape::Torus).mesh;
+    let stage = Viewer::new(Scene::Torus).stage(&Controls::new(Config::default()).state());
+    let model = stage.objects.first().context("the torus's stage has no object")?.model;
+    let model_to_clip = stage.camera.projection.times(&stage.camera.view).times(&model);
+    let transform = ScreenTransform::new(&model_to_clip, mesh);
+    let light = ObjectLight::new(&stage.light, &model);
     let mut cache = vec![ScreenVertex::default(); MAX_VERTICES];
     let mut words = Words { buffer: vec![0; 2 * mesh.faces().len() * FlatTriangle::WORDS], used: 0 };
 
