@@ -5,7 +5,8 @@ use core::ops::ControlFlow;
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
 use geometry::{
-    Culling, DrawStatistics, Drawn, LitColour, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Unlit,
+    Culling, DrawStatistics, Drawn, LitColour, LitVertices, ObjectLight, ScreenTransform, ScreenVertex, Sink,
+    Transformed, Unlit,
 };
 
 use crate::link::FrameReport;
@@ -67,13 +68,21 @@ pub fn draw_frame<P: Port, W: Wait>(
             let transform = ScreenTransform::new(&model_to_clip, &model.mesh);
             // The caches are as large as the largest mesh.
             let Ok(transformed) = Transformed::new(&model.mesh, &transform, vertices) else { continue };
+            let transformed_at = (writer.ticks)();
+            let light = ObjectLight::new(&stage.light, &object.model);
+            // Lighting a vertex is a vertex's cost; what turns the light is a mesh's, and so the faces'.
+            let light_at = (writer.ticks)();
+            let lit = match pass {
+                // The memory is as large as the largest mesh, so there is never too little.
+                Pass::Smooth => transformed.light_vertices(model.looks, &light, lit).ok(),
+                _ => None,
+            };
             let vertices_done = (writer.ticks)();
             let pushed_before = writer.pushing;
-            let light = ObjectLight::new(&stage.light, &object.model);
             let statistics = draw_pass(&transformed, model, (*pass, object.culling), &light, lit, &mut writer);
             let pushing = writer.pushing - pushed_before;
-            cost.vertex_ticks += vertices_done - start;
-            cost.face_ticks += (writer.ticks)() - vertices_done - pushing;
+            cost.vertex_ticks += transformed_at - start + (vertices_done - light_at);
+            cost.face_ticks += (light_at - transformed_at) + (writer.ticks)() - vertices_done - pushing;
             // What a later pass draws again counts as drawn, not as more to draw.
             cost.add(&statistics, index == 0);
         }
@@ -126,13 +135,16 @@ fn draw_pass(
     model: &Model<'_>,
     (pass, culling): (Pass, Culling),
     light: &ObjectLight,
-    lit: &mut [LitColour],
+    lit: Option<LitVertices<'_>>,
     sink: &mut impl Sink,
 ) -> DrawStatistics {
+    if model.mesh.faces().is_empty() {
+        // A model of lines alone has nothing else to show.
+        return transformed.draw_lines(model.edges, &Style::LINES, sink);
+    }
     match pass {
         Pass::Flat => transformed.draw(light, culling, sink),
-        // The memory is as large as the largest mesh, so there is never too little.
-        Pass::Smooth => transformed.draw_smooth(model.looks, light, lit, culling, sink).unwrap_or_default(),
+        Pass::Smooth => lit.map_or_else(DrawStatistics::default, |lit| transformed.draw_smooth(&lit, culling, sink)),
         Pass::Hiding => transformed.draw_unlit(Unlit::HIDING, culling, sink),
         Pass::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, culling, sink),
         Pass::Lines => transformed.draw_lines(model.edges, &Style::LINES, sink),

@@ -9,6 +9,7 @@
 //! | [`style`] | how scenes are drawn |
 //! | [`frame`] | one frame: a stage to packets, and these to the FPGA |
 //! | [`intake`] | what controllers say, taken in and tallied |
+//! | [`legend`] | what each key does, as the console tells it |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
 //! | [`armv7a`] | what every board shares: start-up, MMU, L1 caches, fault reports |
@@ -44,6 +45,7 @@ pub mod cortex_a9;
 pub mod de1_soc;
 pub mod frame;
 pub mod intake;
+pub mod legend;
 pub mod link;
 pub mod mmio;
 pub mod pl011;

@@ -11,6 +11,8 @@ pub mod meshes;
 mod plate;
 pub mod stage;
 
+use crate::style::Style;
+
 /// A scene of the viewer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scene {
@@ -20,11 +22,18 @@ pub enum Scene {
     Torus,
     /// The same mesh from inside its tube: all around the eye, faces cross the near plane.
     Tunnel,
+    /// Several objects, each with its model matrix, under a coloured light; a camera that orbits or flies.
+    Solids,
+    /// Lines, turned and moved by steps behind a viewing plane.
+    Wireframe,
+    /// Convex polygons of many corners that cut through one another.
+    Polygons,
 }
 
 impl Scene {
     /// All scenes, in the order in which Start goes through them.
-    pub const ALL: &'static [Scene] = &[Scene::Plate, Scene::Torus, Scene::Tunnel];
+    pub const ALL: &'static [Scene] =
+        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons];
 
     /// Returns the scene's name.
     pub fn name(self) -> &'static str {
@@ -32,12 +41,25 @@ impl Scene {
             Scene::Plate => "plate",
             Scene::Torus => "torus",
             Scene::Tunnel => "tunnel",
+            Scene::Solids => "solids",
+            Scene::Wireframe => "wireframe",
+            Scene::Polygons => "polygons",
+        }
+    }
+
+    /// Returns the style that the scene begins in.
+    pub fn style(self) -> Style {
+        match self {
+            Scene::Plate | Scene::Torus | Scene::Tunnel => Style::Flat,
+            Scene::Solids => Style::Smooth,
+            Scene::Wireframe => Style::Wire,
+            Scene::Polygons => Style::DepthGrey,
         }
     }
 
     /// Returns the scene of a number, the last one if it is too large.
     pub fn from_index(index: usize) -> Self {
-        Self::ALL.get(index).copied().unwrap_or(Scene::Tunnel)
+        Self::ALL.get(index).copied().unwrap_or(Scene::Polygons)
     }
 
     /// Returns the scene's number.

@@ -31,6 +31,14 @@ pub enum Projection {
 }
 
 impl Projection {
+    /// Returns the projection's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Perspective => "perspective",
+            Self::Orthographic => "orthographic",
+        }
+    }
+
     /// Returns the other projection.
     #[must_use]
     pub fn other(self) -> Self {
@@ -83,6 +91,16 @@ impl Style {
         }
     }
 
+    /// Returns the style of a number, if there is one.
+    pub fn from_index(index: usize) -> Option<Self> {
+        Self::ALL.get(index).copied()
+    }
+
+    /// Returns the style's number.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
     /// Returns the steps that it takes.
     pub fn passes(self) -> &'static [Pass] {
         match self {
@@ -96,7 +114,6 @@ impl Style {
 
     /// Returns the next style, the first after the last.
     pub fn next(self) -> Self {
-        let index = Self::ALL.iter().position(|style| *style == self).unwrap_or(0);
-        Self::ALL[(index + 1) % Self::ALL.len()]
+        Self::from_index(self.index() + 1).unwrap_or_default()
     }
 }

@@ -18,7 +18,8 @@ pub struct Viewer {
 impl Viewer {
     /// Returns the viewer at the beginning of a scene.
     pub fn new(scene: Scene) -> Self {
-        Self { scene, act: Act::new(scene), manner: Manner::default() }
+        let manner = Manner { style: scene.style(), ..Manner::default() };
+        Self { scene, act: Act::new(scene), manner }
     }
 
     /// Returns the scene that is shown.
@@ -26,20 +27,29 @@ impl Viewer {
         self.scene
     }
 
-    /// Returns how meshes are drawn.
-    pub fn style(&self) -> Style {
-        self.manner.style
+    /// Returns how it is drawn.
+    pub fn manner(&self) -> Manner {
+        self.manner
     }
 
-    /// Takes in a frame's controls. Start and Select change the scene, Triangle the style, Square
-    /// the projection; while the pose is frozen nothing moves.
+    /// Draws in another style from now on.
+    pub fn set_style(&mut self, style: Style) {
+        self.manner.style = style;
+    }
+
+    /// Returns which of its two modes the scene is in, if it has two.
+    pub fn mode(&mut self) -> Option<&'static str> {
+        self.act.perform().mode()
+    }
+
+    /// Takes in a frame's controls. Start and Select change the scene, which begins in its own style; Triangle
+    /// changes the style, Square the projection; while the pose is frozen nothing moves.
     pub fn update(&mut self, state: &ControllerState) {
         let count = Scene::ALL.len();
         let step = usize::from(state.pressed.contains(Button::Start))
             + (count - 1) * usize::from(state.pressed.contains(Button::Select));
         if !step.is_multiple_of(count) {
-            let scene = Scene::from_index((self.scene.index() + step) % count);
-            *self = Self { manner: self.manner, ..Self::new(scene) };
+            *self = Self::new(Scene::from_index((self.scene.index() + step) % count));
             return;
         }
         if state.pressed.contains(Button::Triangle) {

@@ -62,7 +62,7 @@ impl ObjectLight {
         let times_diffuse =
             |vector: Vector| vector.map(|part| (((part.to_bits() >> 16) * diffuse + (1 << 17)) >> 18) as i32);
         let ambient = (clamp(light.ambient) << (DOT_BITS - 16)) as i32 + HALF;
-        let uneven = UnevenLight::new(light.colour, times_diffuse(world), ambient, model);
+        let uneven = UnevenLight::new(light.colour, times_diffuse(local), times_diffuse(world), ambient, model);
         Self { direction: times_diffuse(local), ambient, uneven }
     }
 

@@ -108,9 +108,50 @@ fn the_plate_has_120_faces_is_closed_and_turned_outwards() {
     });
 }
 
+/// Faces, and the edges that lines show: as many as the shapes' own figures say.
+#[test]
+fn every_shape_is_whole() {
+    let mut memory = Box::<MeshMemory>::default();
+    let meshes = Meshes::new(&mut memory).expect("the built-in meshes are well-formed");
+    for (shape, faces, edges) in [
+        (Shape::Plate, 120, 180),
+        (Shape::Torus, 4_096, 6_144),
+        (Shape::Ring, 480, 720),
+        (Shape::Sphere, 320, 480),
+        (Shape::Box, 12, 12),
+        (Shape::Pyramid, 6, 8),
+        (Shape::Dodecahedron, 36, 30),
+        (Shape::Prism, 20, 18),
+        (Shape::Disc, 44, 36),
+        (Shape::House, 26, 43),
+    ] {
+        let model = meshes.of(shape);
+        assert_eq!((model.mesh.faces().len(), model.edges.len()), (faces, edges), "{shape:?}");
+        assert_eq!(model.looks.len(), model.mesh.positions().len(), "{shape:?}");
+    }
+}
+
+#[test]
+fn solids_are_closed_and_turned_outwards() {
+    for shape in [Shape::Ring, Shape::Sphere, Shape::Dodecahedron, Shape::Prism, Shape::Disc] {
+        with_mesh(shape, |mesh| {
+            assert_closed(mesh);
+            assert_normals_fit(mesh);
+            assert!(volume(mesh) > 0.0, "{shape:?}");
+        });
+    }
+    // Facets that have corners of their own are not closed by their numbers; but by their volume.
+    for (shape, expected) in [(Shape::Box, 8.0), (Shape::Pyramid, 8.0 / 3.0)] {
+        with_mesh(shape, |mesh| {
+            assert_normals_fit(mesh);
+            assert!((volume(mesh) - expected).abs() < 1e-6, "{shape:?}");
+        });
+    }
+}
+
 #[test]
 fn every_corner_of_a_mesh_is_used() {
-    for shape in [Shape::Plate, Shape::Torus] {
+    for shape in Shape::ALL.into_iter().filter(|shape| *shape != Shape::House) {
         with_mesh(shape, |mesh| {
             let mut used = vec![false; mesh.positions().len()];
             mesh.faces().iter().flat_map(|face| face.corners).for_each(|corner| used[corner as usize] = true);

@@ -1,6 +1,6 @@
 //! One model, tilted by the controller, seen from above.
 
-use controls::ControllerState;
+use controls::{ControllerState, Tilt};
 use fixed::types::{I16F16, I32F32};
 use geometry::{Angle, Matrix};
 
@@ -8,7 +8,7 @@ use super::Perform;
 use super::pose::Pose;
 use crate::scene::meshes::Shape;
 use crate::scene::stage::{Camera, DAYLIGHT, Object, Stage, lens};
-use crate::style::Manner;
+use crate::style::{Manner, Style};
 
 /// A model and its pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +24,7 @@ pub struct Exhibit {
 }
 
 /// Farthest that the models reach from their middle, in world units.
-const REACH: f64 = 1.6;
+const REACH: I32F32 = I32F32::lit("1.6");
 
 impl Exhibit {
     /// The plate at its beginning.
@@ -44,6 +44,16 @@ impl Exhibit {
         rate: Angle::from_bits((1 << 31) / 90),
         ..Self::PLATE
     };
+
+    /// Returns the projection of what lies around a point at `distance` from the eye and reaches `reach` from
+    /// it. Where depth is shown it has as many levels as can be: near and far planes close in on the model.
+    pub fn lens(manner: Manner, distance: I32F32, reach: I32F32) -> Matrix {
+        let planes = match manner.style {
+            Style::DepthGrey => ((distance - reach).max(const { I32F32::lit("0.1") }), distance + reach),
+            _ => (I32F32::ONE, I32F32::from_num(10)),
+        };
+        lens(manner.projection, distance, planes)
+    }
 }
 
 impl Perform for Exhibit {
@@ -57,14 +67,17 @@ impl Perform for Exhibit {
     }
 
     fn stage(&self, state: &ControllerState, manner: Manner) -> Stage {
-        let roll = Matrix::rotation_z(Angle::from_degrees(state.tilt.roll));
-        let pitch = Matrix::rotation_x(Angle::from_degrees(state.tilt.pitch));
         let turning = Matrix::rotation_y(self.pose.spin.plus(self.turned));
         let distance = self.pose.distance(self.distance);
         let camera = Camera {
             view: self.pose.orbit(self.distance, self.elevation),
-            projection: lens(manner.projection, manner.style, distance, I32F32::from_num(REACH)),
+            projection: Self::lens(manner, distance, REACH),
         };
-        Stage::new(camera, DAYLIGHT, manner.style).with(Object::new(self.shape, pitch.times(&roll).times(&turning)))
+        Stage::new(camera, DAYLIGHT, manner.style).with(Object::new(self.shape, tilted(state.tilt).times(&turning)))
     }
+}
+
+/// Returns how the pad's tilt turns a model.
+pub fn tilted(tilt: Tilt) -> Matrix {
+    Matrix::rotation_x(Angle::from_degrees(tilt.pitch)).times(&Matrix::rotation_z(Angle::from_degrees(tilt.roll)))
 }

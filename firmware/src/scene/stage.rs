@@ -73,21 +73,19 @@ pub const DAYLIGHT: DirectionalLight = DirectionalLight {
     ambient: I16F16::lit("0.25"),
 };
 
-/// Returns the projection of what lies around a point at `distance` from the eye, and reaches
-/// `reach` from it; as large in both projections at that distance.
-pub fn lens(projection: Projection, style: Style, distance: I32F32, reach: I32F32) -> Matrix {
-    let (near, far) = match style {
-        // As many levels of grey as can be: what is to be seen, and little more.
-        Style::DepthGrey => ((distance - reach).max(I32F32::from_num(0.1)), distance + reach),
-        _ => (I32F32::ONE, I32F32::from_num(10)),
-    };
+/// Everything in its own colour.
+pub const FULL_LIGHT: DirectionalLight = DirectionalLight { diffuse: I16F16::ZERO, ambient: I16F16::ONE, ..DAYLIGHT };
+
+/// Returns a projection between near and far planes at these distances; what is `distance` from the eye is
+/// as large in one projection as in the other.
+pub fn lens(projection: Projection, distance: I32F32, planes: (I32F32, I32F32)) -> Matrix {
     match projection {
-        Projection::Perspective => perspective(const { I16F16::lit("45") }, near, far),
+        Projection::Perspective => perspective(const { I16F16::lit("45") }, planes.0, planes.1),
         Projection::Orthographic => {
             // tan 22.5° is 0.4142.
-            let half = distance * I32F32::from_num(0.4142);
+            let half = distance * const { I32F32::lit("0.4142") };
             let wide = half * 4 / 3;
-            Matrix::orthographic((-wide, wide), (-half, half), (near, far))
+            Matrix::orthographic((-wide, wide), (-half, half), planes)
         }
     }
 }
