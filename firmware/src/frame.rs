@@ -1,17 +1,18 @@
-//! One frame: a scene's mesh to packets, and these to the FPGA.
+//! One frame: a stage's objects to packets, and these to the FPGA.
 
 use core::ops::ControlFlow;
 
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
 use geometry::{
-    Culling, DrawStatistics, Drawn, LitColour, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Unlit,
+    Culling, DrawStatistics, Drawn, LitColour, LitVertices, ObjectLight, ScreenTransform, ScreenVertex, Sink,
+    Transformed, Unlit,
 };
 
 use crate::link::FrameReport;
-use crate::scene::{MAX_VERTICES, Meshes, Model, Scene};
-use crate::style::Style;
-use crate::viewer::View;
+use crate::scene::meshes::{MAX_VERTICES, Meshes, Model};
+use crate::scene::stage::Stage;
+use crate::style::{Pass, Style};
 
 /// Words that are gathered before they go to the FPGA: most frames whole.
 const BUFFER_WORDS: usize = 32 * 1024;
@@ -37,7 +38,7 @@ impl Default for FrameMemory {
     }
 }
 
-/// Draws a scene and waits until the FPGA has passed its swap.
+/// Draws a stage and waits until the FPGA has passed its swap.
 ///
 /// `ticks` is a clock that counts up; the durations in the report are its differences, without
 /// the time that pushing words to the FPGA takes.
@@ -45,8 +46,8 @@ impl Default for FrameMemory {
 /// # Errors
 /// [`RenderError`] of the renderer; the frame is lost, and the renderer wants a reset.
 pub fn draw_frame<P: Port, W: Wait>(
-    (meshes, scene): (&Meshes<'_>, Scene),
-    view: &View,
+    meshes: &Meshes<'_>,
+    stage: &Stage,
     memory: &mut FrameMemory,
     renderer: &mut Renderer<P, W>,
     mut ticks: impl FnMut() -> u64,
@@ -54,21 +55,38 @@ pub fn draw_frame<P: Port, W: Wait>(
     let words_before = renderer.words_pushed();
     renderer.clear(Rgb332::BLACK, DEPTH_FAR)?;
 
-    let model = meshes.of(scene);
-    let mesh = &model.mesh;
-    let start = ticks();
-    let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let Ok(transformed) = Transformed::new(mesh, &transform, &mut memory.vertices) else {
-        // The cache is as large as the largest scene's mesh.
-        return Ok(FrameReport::default());
-    };
-    let vertices_done = ticks();
-    let light = ObjectLight::new(&view.light, &view.model);
+    let mut cost = Cost::default();
     let mut writer = PacketWriter::new(&mut memory.words, renderer, &mut ticks);
-    let statistics =
-        draw_styled(&transformed, model, (view.style, scene.culling()), &light, &mut memory.lit, &mut writer);
-    let faces_done = (writer.ticks)();
-    let pushing = writer.pushing;
+    let world_to_clip = stage.camera.projection.times(&stage.camera.view);
+    let passes = stage.style.passes();
+    for (index, pass) in passes.iter().enumerate() {
+        for object in &stage.objects {
+            let model = meshes.of(object.shape);
+            let (vertices, lit) = (&mut memory.vertices[..], &mut memory.lit[..]);
+            let model_to_clip = world_to_clip.times(&object.model);
+            let start = (writer.ticks)();
+            let transform = ScreenTransform::new(&model_to_clip, &model.mesh);
+            // The caches are as large as the largest mesh.
+            let Ok(transformed) = Transformed::new(&model.mesh, &transform, vertices) else { continue };
+            let transformed_at = (writer.ticks)();
+            let light = ObjectLight::new(&stage.light, &object.model);
+            // Lighting a vertex is a vertex's cost; what turns the light is a mesh's, and so the faces'.
+            let light_at = (writer.ticks)();
+            let lit = match pass {
+                // The memory is as large as the largest mesh, so there is never too little.
+                Pass::Smooth => transformed.light_vertices(model.looks, &light, lit).ok(),
+                _ => None,
+            };
+            let vertices_done = (writer.ticks)();
+            let pushed_before = writer.pushing;
+            let statistics = draw_pass(&transformed, model, (*pass, object.culling), &light, lit, &mut writer);
+            let pushing = writer.pushing - pushed_before;
+            cost.vertex_ticks += transformed_at - start + (vertices_done - light_at);
+            cost.face_ticks += (light_at - transformed_at) + (writer.ticks)() - vertices_done - pushing;
+            // What a later pass draws again counts as drawn, not as more to draw.
+            cost.add(&statistics, index == 0);
+        }
+    }
     writer.finish()?;
 
     renderer.swap()?;
@@ -76,41 +94,60 @@ pub fn draw_frame<P: Port, W: Wait>(
     renderer.wait_fence(fence)?;
     Ok(FrameReport {
         index: 0,
-        vertices: statistics.vertices,
-        triangles_submitted: statistics.submitted,
-        triangles_clipped: statistics.clipped,
-        triangles_drawn: statistics.drawn,
+        vertices: cost.statistics.vertices,
+        triangles_submitted: cost.statistics.submitted,
+        triangles_clipped: cost.statistics.clipped,
+        triangles_drawn: cost.statistics.drawn,
         // The triangles, a clear, a swap and a fence.
-        packets: statistics.drawn + 3,
+        packets: cost.statistics.drawn + 3,
         words: (renderer.words_pushed() - words_before) as u32,
-        vertex_ticks: (vertices_done - start) as u32,
-        face_ticks: (faces_done - vertices_done - pushing) as u32,
+        vertex_ticks: cost.vertex_ticks as u32,
+        face_ticks: cost.face_ticks as u32,
         checksum: None,
     })
 }
 
-/// Draws a model in a style.
+/// What a frame's objects took, all together.
+#[derive(Debug, Default)]
+struct Cost {
+    statistics: DrawStatistics,
+    vertex_ticks: u64,
+    face_ticks: u64,
+}
+
+impl Cost {
+    fn add(&mut self, more: &DrawStatistics, first_pass: bool) {
+        let sum = &mut self.statistics;
+        sum.drawn += more.drawn;
+        if first_pass {
+            sum.vertices += more.vertices;
+            sum.submitted += more.submitted;
+            sum.clipped += more.clipped;
+        }
+    }
+}
+
+/// Draws an object's part of a pass.
 ///
-/// The flat style is what most frames are, and what costs are measured on: it comes first.
-fn draw_styled(
+/// The flat one is what most frames are, and what costs are measured on: it comes first.
+fn draw_pass(
     transformed: &Transformed<'_>,
     model: &Model<'_>,
-    (style, culling): (Style, Culling),
+    (pass, culling): (Pass, Culling),
     light: &ObjectLight,
-    lit: &mut [LitColour],
+    lit: Option<LitVertices<'_>>,
     sink: &mut impl Sink,
 ) -> DrawStatistics {
-    match style {
-        Style::Flat => transformed.draw(light, culling, sink),
-        // The memory is as large as the largest scene's mesh, so there is never too little.
-        Style::Smooth => transformed.draw_smooth(model.looks, light, lit, culling, sink).unwrap_or_default(),
-        Style::Wire => transformed.draw_lines(model.edges, &Style::LINES, sink),
-        Style::HiddenLines => {
-            let hiding = transformed.draw_unlit(Unlit::HIDING, culling, sink);
-            let lines = transformed.draw_lines(model.edges, &Style::LINES, sink);
-            DrawStatistics { drawn: hiding.drawn + lines.drawn, ..hiding }
-        }
-        Style::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, culling, sink),
+    if model.mesh.faces().is_empty() {
+        // A model of lines alone has nothing else to show.
+        return transformed.draw_lines(model.edges, &Style::LINES, sink);
+    }
+    match pass {
+        Pass::Flat => transformed.draw(light, culling, sink),
+        Pass::Smooth => lit.map_or_else(DrawStatistics::default, |lit| transformed.draw_smooth(&lit, culling, sink)),
+        Pass::Hiding => transformed.draw_unlit(Unlit::HIDING, culling, sink),
+        Pass::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, culling, sink),
+        Pass::Lines => transformed.draw_lines(model.edges, &Style::LINES, sink),
     }
 }
 

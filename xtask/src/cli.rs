@@ -7,10 +7,12 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::commands;
 use crate::qemu::UsbIds;
-use values::{parse_rotation, parse_units, parse_usb_ids};
+use values::{parse_rotation, parse_scene, parse_style, parse_units, parse_usb_ids};
 
 pub use board::Board;
 pub use values::Rotation;
@@ -109,6 +111,12 @@ pub struct DemoArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Plays the pictures of the five systems that the project grows out of instead
+    #[arg(long)]
+    pub seeds: bool,
+    /// Plays this scene's parts of both sessions alone
+    #[arg(long, value_name = "NAME", conflicts_with = "seeds", value_parser = parse_scene)]
+    pub scene: Option<Scene>,
     /// Writes the packet words of all frames as well, for replay and decode
     #[arg(long, value_name = "FILE")]
     pub dump: Option<PathBuf>,
@@ -128,6 +136,12 @@ pub struct RunArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Scene to begin with: plate, torus, tunnel, solids, wireframe or polygons
+    #[arg(long, value_name = "NAME", value_parser = parse_scene)]
+    pub scene: Option<Scene>,
+    /// Style to begin with: flat, smooth, wireframe, hidden-lines or depth-as-grey
+    #[arg(long, value_name = "STYLE", value_parser = parse_style)]
+    pub style: Option<Style>,
     /// Opens no window; stops after --frames and leaves them in --output
     #[arg(long, requires = "frames", requires = "output")]
     pub headless: bool,
