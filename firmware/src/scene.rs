@@ -28,12 +28,14 @@ pub enum Scene {
     Wireframe,
     /// Convex polygons of many corners that cut through one another.
     Polygons,
+    /// The Ultimate Ball Balancer: a ball on the plate, targets, a clock.
+    Game,
 }
 
 impl Scene {
     /// All scenes, in the order in which Start goes through them.
     pub const ALL: &'static [Scene] =
-        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons];
+        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons, Scene::Game];
 
     /// Returns the scene's name.
     pub fn name(self) -> &'static str {
@@ -44,13 +46,14 @@ impl Scene {
             Scene::Solids => "solids",
             Scene::Wireframe => "wireframe",
             Scene::Polygons => "polygons",
+            Scene::Game => "game",
         }
     }
 
     /// Returns the style that the scene begins in.
     pub fn style(self) -> Style {
         match self {
-            Scene::Plate | Scene::Torus | Scene::Tunnel => Style::Flat,
+            Scene::Plate | Scene::Torus | Scene::Tunnel | Scene::Game => Style::Flat,
             Scene::Solids => Style::Smooth,
             Scene::Wireframe => Style::Wire,
             Scene::Polygons => Style::DepthGrey,
@@ -59,7 +62,7 @@ impl Scene {
 
     /// Returns the scene of a number, the last one if it is too large.
     pub fn from_index(index: usize) -> Self {
-        Self::ALL.get(index).copied().unwrap_or(Scene::Polygons)
+        Self::ALL.get(index).copied().unwrap_or(Scene::Game)
     }
 
     /// Returns the scene's number.

@@ -2,6 +2,7 @@
 //! SystemVerilog packages, the plate that the firmware shows, and the sessions.
 
 mod board_package;
+mod game;
 mod plate;
 mod reference_page;
 mod rtl_package;
@@ -52,6 +53,7 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
         GeneratedFile { path: crate::session::SEEDS, text: seeds::text() },
+        GeneratedFile { path: crate::session::GAME, text: game::text() },
     ])
 }
 

@@ -20,6 +20,9 @@ pub const DEMO: &str = "assets/demo.session";
 /// Where the session of the five systems lies in the workspace.
 pub const SEEDS: &str = "assets/seeds.session";
 
+/// Where the recorded game lies in the workspace.
+pub const GAME: &str = "assets/game.session";
+
 /// A frame's report, if the controller sent one.
 pub type ReportBytes = Option<[u8; DualShock3Report::LENGTH]>;
 
