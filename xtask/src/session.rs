@@ -82,6 +82,14 @@ pub fn seeds() -> anyhow::Result<Vec<ScenePart>> {
     read(&crate::paths::workspace_root().join(SEEDS)).context("write it again with `cargo xtask generate`")
 }
 
+/// Reads the recorded game.
+///
+/// # Errors
+/// As [`read`].
+pub fn game() -> anyhow::Result<Vec<ScenePart>> {
+    read(&crate::paths::workspace_root().join(GAME)).context("write it again with `cargo xtask generate`")
+}
+
 /// Parses a session's text.
 ///
 /// # Errors

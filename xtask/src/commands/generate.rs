@@ -6,6 +6,7 @@ use crate::generated;
 use crate::golden::{self, Golden};
 use crate::machine::with_host;
 use crate::progress::Progress;
+use crate::recorded_game::{self, Record};
 use crate::session::{self, ScenePart};
 
 /// Writes the generated files, or with `--check` only says which are stale.
@@ -33,6 +34,9 @@ pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
     if arguments.golden {
         write_golden(golden::DEMO, &session::demo()?)?;
         write_golden(golden::SEEDS, &session::seeds()?)?;
+        let record = Record::of(&session::game()?)?;
+        record.write()?;
+        println!("written {}: score {}", recorded_game::GOLDEN, record.score());
     }
     Ok(())
 }
