@@ -68,7 +68,7 @@ fn board(solid: &mut SolidBuilder<'_>) {
     const DARK: [u8; 3] = [0x27, 0x40, 0xab];
     const MEDIUM: [u8; 3] = [0x48, 0x76, 0xff];
     const LIGHT: [u8; 3] = [0xca, 0xe1, 0xff];
-    let at = |index: i32| I4F28::from_num(2 * index - SQUARES) / SQUARES;
+    let at = |index: i32| I4F28::from_num(index - SQUARES / 2) / (SQUARES / 2);
     for row in 0..SQUARES {
         for column in 0..SQUARES {
             let [left, right, far, near] = [at(column), at(column + 1), at(row), at(row + 1)];
