@@ -17,6 +17,7 @@
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`fill`] | what more pixel units bring; [`plot`] draws it |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -40,6 +41,7 @@ pub mod commands;
 pub mod console;
 pub mod demo;
 pub mod fake_pad;
+pub mod fill;
 pub mod firmware_build;
 pub mod generated;
 pub mod golden;
@@ -50,6 +52,7 @@ pub mod model;
 pub mod obj;
 pub mod paths;
 pub mod picture;
+pub mod plot;
 pub mod progress;
 pub mod qemu;
 pub mod qmp;
