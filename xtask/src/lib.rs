@@ -16,6 +16,7 @@
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
+//! | [`prove`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`fill`] | what more pixel units bring; [`plot`] draws it |
 //! | [`checks`] | the steps of `cargo xtask test` |
@@ -54,6 +55,7 @@ pub mod paths;
 pub mod picture;
 pub mod plot;
 pub mod progress;
+pub mod prove;
 pub mod qemu;
 pub mod qmp;
 pub mod render;
