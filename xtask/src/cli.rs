@@ -16,8 +16,9 @@ pub use board::Board;
 pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
-const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
+const COMMAND_GROUPS: [(&str, &[&str]); 5] = [
     ("See it work", &["demo", "run", "pad"]),
+    ("Put it on a board", &["image"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
     ("Check and measure", &["test", "bench", "area"]),
     ("Keep generated files fresh", &["generate"]),
@@ -63,6 +64,12 @@ pub enum Task {
     /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
     /// is over, until Ctrl-C.
     Pad(PadArguments),
+    /// Makes what goes on the DE1-SoC's SD card, and the whole card as a file
+    ///
+    /// Leaves in target/de1-soc: halfspace-sd.img, the card; card/, what to copy onto a card that
+    /// starts already; and their parts. The same input gives the same bytes. U-Boot is built from
+    /// Debian's source package, which takes a minute the first time. README §Flash goes on from there.
+    Image(ImageArguments),
     /// Draws an OBJ model to a PNG file
     ///
     /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
@@ -149,6 +156,20 @@ pub struct PadArguments {
     /// Session to play instead of the demo's
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
+}
+
+/// Flags of `image`.
+#[derive(Debug, Args)]
+pub struct ImageArguments {
+    /// FPGA image for the card: fpga/build/halfspace.rbf
+    #[arg(long, value_name = "FILE")]
+    pub rbf: Option<PathBuf>,
+    /// U-Boot with its preloader (u-boot-with-spl.sfp) instead of one that is built here
+    #[arg(long, value_name = "FILE")]
+    pub uboot: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Flags of `render`.
@@ -267,6 +288,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Test(arguments) => commands::test::run(arguments),
         Task::Run(arguments) => commands::run::run(arguments),
         Task::Pad(arguments) => commands::pad::run(arguments),
+        Task::Image(arguments) => commands::image::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
@@ -371,6 +393,8 @@ mod tests {
             "run --board raspi2b --pad s",
             "run --board raspi2b --usb-host 054c:0268",
             "pad s --session f",
+            "image",
+            "image --rbf f --uboot u --output d",
             "demo --dump w",
             "test",
             "test --only usb",

@@ -17,6 +17,7 @@
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`card`] | what goes on the DE1-SoC's SD card |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -33,6 +34,7 @@ compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS 
 
 pub mod area;
 pub mod boot;
+pub mod card;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;

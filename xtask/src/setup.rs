@@ -6,17 +6,21 @@
 //! | --- | --- |
 //! | the Rust target | see [`rust_target`]: rustup, or Debian's packages and a build of `core` |
 //! | Yosys | see [`yosys`]: a Python environment under the target folder |
+//! | U-Boot | see [`uboot`]: built from Debian's source package under the target folder |
 //! | QEMU, Verilator, a C++ compiler | see [`packages`]: apt as root or by `sudo -n`, else the command to type is told |
 //!
 //! Output of installers goes to `target/setup/*.log`; its end is shown when one fails. A lock
 //! file there lets a second `cargo xtask` wait until the first has done.
 
 mod debian_rust;
+mod headers;
 mod lock;
 mod logged;
 pub mod packages;
 mod privilege;
 pub mod rust_target;
+mod source_package;
+mod uboot;
 mod verilator;
 mod yosys;
 
@@ -28,6 +32,7 @@ use anyhow::{Context, bail};
 
 pub use packages::{Packages, ensure_tool, find_program};
 pub use rust_target::{FirmwareToolchain, TARGET, ensure_firmware_toolchain};
+pub use uboot::{BuiltUBoot, ensure_uboot};
 pub use verilator::{ensure_verilator, ensure_wave_library};
 pub use yosys::ensure_yosys;
 
