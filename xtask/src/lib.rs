@@ -18,6 +18,7 @@
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`card`] | what goes on the DE1-SoC's SD card |
+//! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -43,6 +44,7 @@ pub mod console;
 pub mod demo;
 pub mod fake_pad;
 pub mod firmware_build;
+pub mod frame_model;
 pub mod generated;
 pub mod golden;
 pub mod log_decoder;
