@@ -30,7 +30,7 @@ use std::process::Command;
 
 use anyhow::{Context, bail};
 
-pub use packages::{Packages, ensure_tool, find_program};
+pub use packages::{Packages, ensure_file, ensure_tool, find_program};
 pub use rust_target::{FirmwareToolchain, TARGET, ensure_firmware_toolchain};
 pub use uboot::{BuiltUBoot, ensure_uboot};
 pub use verilator::{ensure_verilator, ensure_wave_library};
