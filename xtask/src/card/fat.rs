@@ -36,7 +36,7 @@ pub fn write(partition: &mut [u8], files: &[CardFile]) -> anyhow::Result<()> {
         .bytes_per_cluster(SECTOR as u32)
         .volume_id(VOLUME_ID)
         .volume_label(LABEL);
-    format_volume(&mut Cursor::new(&mut *partition), options).context("cannot make the card's file system")?;
+    format_volume(Cursor::new(&mut *partition), options).context("cannot make the card's file system")?;
     let options = FsOptions::new().time_provider(&Begin);
     let system = FileSystem::new(Cursor::new(partition), options).context("cannot open the card's file system")?;
     let free = system.stats().context("cannot count the card's free clusters")?;

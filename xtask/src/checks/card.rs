@@ -76,7 +76,7 @@ pub(super) fn card(state: &mut State) -> anyhow::Result<()> {
 
     let program = Program::read(elf)?;
     // As long as an uncompressed one.
-    let fpga_image: Vec<u8> = (0..7_000_001_u32).map(|index| (index * 7 >> 3) as u8).collect();
+    let fpga_image: Vec<u8> = (0..7_000_001_u32).map(|index| (index.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     let files = files(&program, Some(fpga_image));
     image::write_files(output, &program, &files)?;
     image::write_card(output, &files, &uboot)?;

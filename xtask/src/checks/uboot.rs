@@ -27,7 +27,7 @@ use crate::setup::{Packages, ensure_file, ensure_uboot};
 /// Debian's and other systems' places are not the same.
 const PATHS: [&str; 2] = ["/usr/lib/u-boot/qemu_arm/u-boot.bin", "/usr/share/u-boot/qemu_arm/u-boot.bin"];
 const PACKAGES: Packages = Packages { apt: &["u-boot-qemu"], dnf: &["uboot-images-armv7"], pacman: &[], brew: &[] };
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_secs(60);
 /// What the script says last when it cannot go on, and when it can.
 const ENDS: [&str; 2] = ["cannot be read from partition 1", "would go"];
 
