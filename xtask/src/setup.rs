@@ -5,7 +5,7 @@
 //! | needed | how it is had |
 //! | --- | --- |
 //! | the Rust target | see [`rust_target`]: rustup, or Debian's packages and a build of `core` |
-//! | Yosys | see [`yosys`]: a Python environment under the target folder |
+//! | Yosys, Bitwuzla | see [`python`]: a Python environment each, under the target folder |
 //! | U-Boot | see [`uboot`]: built from Debian's source package under the target folder |
 //! | QEMU, Verilator, a C++ compiler | see [`packages`]: apt as root or by `sudo -n`, else the command to type is told |
 //!
@@ -18,11 +18,11 @@ mod lock;
 mod logged;
 pub mod packages;
 mod privilege;
+mod python;
 pub mod rust_target;
 mod source_package;
 mod uboot;
 mod verilator;
-mod yosys;
 
 use std::env;
 use std::path::PathBuf;
@@ -31,10 +31,10 @@ use std::process::Command;
 use anyhow::{Context, bail};
 
 pub use packages::{Packages, ensure_file, ensure_tool, find_program};
+pub use python::{ensure_bitwuzla, ensure_yosys};
 pub use rust_target::{FirmwareToolchain, TARGET, ensure_firmware_toolchain};
 pub use uboot::{BuiltUBoot, ensure_uboot};
 pub use verilator::{ensure_verilator, ensure_wave_library};
-pub use yosys::ensure_yosys;
 
 use crate::progress::Progress;
 use crate::qemu::Display;

@@ -42,7 +42,10 @@ pub fn write(partition: &mut [u8], files: &[CardFile]) -> anyhow::Result<()> {
     let free = system.stats().context("cannot count the card's free clusters")?;
     let room = u64::from(free.free_clusters()) * u64::from(free.cluster_size());
     let wanted: u64 = files.iter().map(|file| file.bytes.len().next_multiple_of(SECTOR) as u64).sum();
-    ensure!(wanted <= room, "the files take {wanted} bytes, and the card's partition has room for {room}");
+    ensure!(
+        wanted <= room,
+        "the files take {wanted} bytes, and the card's partition has room for {room}: is the FPGA image a raw one (.rbf)?"
+    );
     for file in files {
         write_file(&system, file).with_context(|| format!("cannot write {} on the card", file.name))?;
     }
