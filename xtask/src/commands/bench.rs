@@ -1,6 +1,8 @@
 //! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, and the FPGA's clocks.
 
 use std::env;
+use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, ensure};
@@ -8,6 +10,8 @@ use anyhow::{Context, ensure};
 use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
+use crate::fill;
+use crate::frame_model;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
@@ -38,12 +42,23 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let verilated = Verilated::prepare(false, &progress)?;
     let step = progress.step("counting the FPGA's clocks");
     measurements.extend(verilated.bench()?);
+    let fills = fill::measure(&verilated)?;
+    measurements.extend(fill::measurements(&fills));
     step.done();
+    let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
+    measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
         print!("{}", table(&measurements));
+        println!("\nwhat more pixel units bring, on the last frame of each picture of the five systems:\n");
+        print!("{}", fill::table(&fills));
+    }
+    if let Some(path) = &arguments.plot {
+        fs::write(path, fill::plot(&fills).svg())
+            .with_context(|| format!("cannot write {}: check its folder", path.display()))?;
+        progress.step(format!("writing {}", path.display())).done();
     }
     Ok(())
 }
@@ -59,6 +74,7 @@ fn run_optimised(arguments: &BenchArguments) -> anyhow::Result<()> {
     let program = target_folder().join("measure/xtask");
     let mut optimised = Command::new(&program);
     optimised.arg("bench").args(arguments.json.then_some("--json"));
+    optimised.args(arguments.plot.iter().flat_map(|path| [Path::new("--plot"), path]));
     let status = optimised.status().with_context(|| format!("cannot start {}", program.display()))?;
     ensure!(status.success(), "the optimised build ended with {status}");
     Ok(())
@@ -74,7 +90,8 @@ fn table(measurements: &[Measurement]) -> Table {
     ]);
     for it in measurements {
         let bar = it.bar.map(|bar| format!("{bar}")).unwrap_or_default();
-        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, it.verdict().unwrap_or_default()]);
+        let remark = it.verdict().or(it.note.as_deref()).unwrap_or_default();
+        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, remark]);
     }
     table
 }
