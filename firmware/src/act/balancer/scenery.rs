@@ -10,10 +10,10 @@ use crate::scene::stage::{Camera, Object, Stage, lens};
 use crate::style::{Manner, Style};
 
 /// From the eye to the plate's middle, and how far down it looks, in degrees.
-const DISTANCE: I32F32 = I32F32::lit("3.7");
+const DISTANCE: I32F32 = I32F32::lit("3.8");
 const ELEVATION: I16F16 = I16F16::lit("52");
 /// How far below the screen's middle the plate's is: the signs want room above it.
-const LOWER: I32F32 = I32F32::lit("0.2");
+const LOWER: I32F32 = I32F32::lit("0.06");
 /// Near and far planes; where depth is shown they close in on the plate.
 const PLANES: (I32F32, I32F32) = (I32F32::lit("1"), I32F32::lit("10"));
 const PLANES_OF_DEPTH: (I32F32, I32F32) = (I32F32::lit("2.4"), I32F32::lit("5.2"));

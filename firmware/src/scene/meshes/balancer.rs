@@ -43,7 +43,7 @@ impl Memory {
             self.board.solid(Corners::Shared, board, None, counts)?,
             self.ball.solid(Corners::Shared, ball, None, counts)?,
             self.hoop.solid(Corners::Shared, hoop, None, counts)?,
-            bright.solid(Corners::Shared, |solid| spot(solid, [255, 235, 90]), None, counts)?,
+            bright.solid(Corners::Shared, |solid| spot(solid, [30, 150, 80]), None, counts)?,
             dark.solid(Corners::Shared, |solid| spot(solid, [16, 20, 60]), None, counts)?,
         ];
         let mut models = [first[0]; COUNT];
