@@ -16,7 +16,7 @@
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
-//! | [`prove`] | theorems about the FPGA's design, proven |
+//! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`card`] | what goes on the DE1-SoC's SD card |
 //! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
@@ -67,6 +67,7 @@ pub mod software_fpga;
 pub mod stream;
 pub mod table;
 pub mod verilated;
+pub mod yosys;
 
 #[cfg(test)]
 mod test_elf;
