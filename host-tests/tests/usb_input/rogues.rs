@@ -100,7 +100,7 @@ fn run(seeds: std::ops::Range<u64>) -> Outcome {
         bench.events.clear();
         bench.reports.clear();
         let began = bench.now.get();
-        ports.plug(1, rogue(seed), began);
+        ports.plug(1, shared(rogue(seed)), began);
         let done = bench.jump_until(LIMIT_US, |bench| settled(&bench.events, here));
         assert!(done, "rogue {seed} is neither attached nor given up: {:#?}", bench.events);
         outcome.longest_us = outcome.longest_us.max(bench.now.get() - began);

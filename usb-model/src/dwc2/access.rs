@@ -63,7 +63,6 @@ impl Core {
             PCGCTL => self.registers.power = value,
             _ => {}
         }
-        self.watch_line();
     }
 
     fn reset_control(&self) -> u32 {
@@ -153,11 +152,8 @@ impl Core {
 
     /// HAINT.
     fn channel_interrupts(&self) -> u32 {
-        self.channels
-            .iter()
-            .enumerate()
-            .map(|(at, channel)| u32::from(channel.interrupts & channel.mask != 0) << at)
-            .sum()
+        let bit = |(at, channel): (usize, &Channel)| u32::from(channel.interrupts & channel.mask != 0) << at;
+        self.channels.iter().enumerate().map(bit).fold(0, |all, bit| all | bit)
     }
 
     fn frame_register(&self) -> u32 {

@@ -20,7 +20,7 @@ mod splits;
 mod start_checks;
 
 pub use build::{Build, Defects};
-pub(crate) use bus::duration as slow_duration;
+pub(crate) use bus::{SPILL_BYTES, duration as slow_duration};
 
 use crate::memory::DmaBus;
 use crate::violation::{Log, Rule};
@@ -134,14 +134,13 @@ impl Core {
     /// Lets time pass until `until`, with all that happens in it. Stops early, and returns false, when the interrupt
     /// line rises.
     pub fn advance(&mut self, until: u64, memory: &mut dyn DmaBus) -> bool {
-        let was_up = self.irq();
+        let was_up = self.watch_line();
         self.settle(memory);
         while let Some(event) = self.next_event().filter(|event| *event <= until) {
             self.now = self.now.max(event);
             self.happen(memory);
             self.settle(memory);
-            self.watch_line();
-            if !was_up && self.irq() {
+            if self.watch_line() && !was_up {
                 return false;
             }
         }
@@ -208,11 +207,11 @@ impl Core {
         self.log.add(self.now, rule, detail);
     }
 
-    /// An interrupt that nobody answers.
-    fn watch_line(&mut self) {
+    /// Says whether the interrupt line is up, and writes down an interrupt that nobody answers.
+    fn watch_line(&mut self) -> bool {
         if !self.irq() {
             self.timers.line_since = None;
-            return;
+            return false;
         }
         let (since, told) = self.timers.line_since.unwrap_or((self.now, false));
         let late = self.now - since > ANSWER_US;
@@ -223,6 +222,7 @@ impl Core {
             );
         }
         self.timers.line_since = Some((since, told || late));
+        true
     }
 }
 
