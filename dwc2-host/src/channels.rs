@@ -71,6 +71,11 @@ impl State<'_> {
             return;
         }
         self.give_up_late_splits();
+        let is_due =
+            |slot: &Slot| matches!(slot.activity, Activity::Waiting { from } if from <= now + slot.endpoint.lead_us());
+        if !self.slots.iter().flatten().any(is_due) {
+            return self.watch_frames(now);
+        }
         for rank in RANKS {
             for index in 0..PIPES {
                 let Some(frame) = self.turn_of(index, rank, now) else { continue };

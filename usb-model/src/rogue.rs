@@ -177,8 +177,8 @@ pub fn rogue(seed: u64) -> Box<dyn Device + Send> {
     let habit = Habit::ALL[random.below(Habit::ALL.len())];
     let from = random.below(60) as u64;
     let once_in = match habit {
-        // "Not now" for ever takes every time-out there is: 15 s on the bus, so only some do.
-        Habit::Naks if !random.once_in(16) => [2, 5, 20][random.below(3)],
+        // "Not now" for ever takes every time-out there is, so only some do.
+        Habit::Naks if !random.once_in(8) => [2, 5, 20][random.below(3)],
         _ => [1, 1, 2, 5, 20][random.below(5)],
     };
     Box::new(Rogue::new(device, habit, from, once_in, random.bits()))

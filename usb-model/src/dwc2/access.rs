@@ -107,6 +107,7 @@ impl Core {
         self.phy_at_reset = Some(phy & GUSBCFG_PHY);
         self.flushed = (false, false);
         self.disconnected = false;
+        self.unsettled = true;
         for channel in &mut self.channels {
             *channel = Channel { lent: channel.lent, ..Channel::default() };
         }
@@ -139,6 +140,17 @@ impl Core {
             | set(self.port.changes() != 0, GINT_PORT)
             | set(self.channel_interrupts() & self.registers.channel_mask != 0, GINT_CHANNEL)
             | set(self.disconnected, GINT_DISCONNECT)
+    }
+
+    /// Any of [`interrupts`](Self::interrupts) that GINTMSK lets through. Asked at every step, so it looks no further
+    /// than it has to.
+    pub(super) fn unmasked_interrupt(&self) -> bool {
+        let wanted = |bit: u32| self.registers.mask & bit != 0;
+        wanted(GINT_HOST) && self.is_host()
+            || wanted(GINT_PORT) && self.port.changes() != 0
+            || wanted(GINT_DISCONNECT) && self.disconnected
+            || wanted(GINT_SOF) && self.frame_index(self.now) > self.frame_seen
+            || wanted(GINT_CHANNEL) && self.channel_interrupts() & self.registers.channel_mask != 0
     }
 
     fn acknowledge(&mut self, value: u32) {

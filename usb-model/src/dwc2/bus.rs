@@ -89,6 +89,7 @@ impl Core {
         let channel = &mut self.channels[index];
         channel.interrupts |= reasons | HCINT_HALTED;
         channel.run = None;
+        self.unsettled = true;
     }
 
     /// Reads what is to be sent; `None` after a bus error, which leaves the channel running for ever.

@@ -81,6 +81,8 @@ pub struct Core {
     port: Port,
     device: Option<Plug>,
     channels: Vec<Channel>,
+    /// Channels have started or ended since the memory was told.
+    unsettled: bool,
     starts: u64,
     /// The wire is free from then on.
     wire_free: u64,
@@ -106,6 +108,7 @@ impl Core {
             port: Port::default(),
             device: None,
             channels: vec![Channel::default(); build.channels()],
+            unsettled: false,
             starts: 0,
             wire_free: 0,
             snoop: Snoop::default(),
@@ -128,7 +131,7 @@ impl Core {
 
     /// The interrupt line.
     pub fn irq(&self) -> bool {
-        self.registers.master & registers::GAHBCFG_GLOBAL != 0 && self.interrupts() & self.registers.mask != 0
+        self.registers.master & registers::GAHBCFG_GLOBAL != 0 && self.unmasked_interrupt()
     }
 
     /// Lets time pass until `until`, with all that happens in it. Stops early, and returns false, when the interrupt
@@ -152,6 +155,9 @@ impl Core {
     /// Tells the memory which buffers the core owns now. [`Core::advance`] does so too; whoever wants ownership to begin with
     /// the very write that starts a channel calls this after each write.
     pub fn settle(&mut self, memory: &mut dyn DmaBus) {
+        if !std::mem::take(&mut self.unsettled) {
+            return;
+        }
         for (index, channel) in self.channels.iter_mut().enumerate() {
             match (channel.run.is_some(), channel.lent) {
                 (true, false) => {
