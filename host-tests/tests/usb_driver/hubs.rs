@@ -95,6 +95,26 @@ fn pad_and_keyboard_report_side_by_side_while_the_hub_is_asked() {
     }
 }
 
+/// Their splits meet in the same microframes, and some complete splits have to go out twice.
+#[test]
+fn four_devices_share_a_translator() {
+    use wire::Speed::{Full, Low};
+    for speeds in [[Low, Low, Full, Full], [Full, Low, Full, Low], [Low, Full, Full, Full], [Low; 4]] {
+        let (rig, hub) = rig_with_hub(SpeedLimit::High);
+        rig.run_for(30_000_000, async {
+            let mut host = HubHost::on_root(&rig).await.unwrap();
+            let mut known = Vec::new();
+            for (port, speed) in (1..).zip(speeds) {
+                hub.lock().plug(port.into(), Box::new(Gadget::counting(speed)));
+                known.push(host.enumerate(&rig, port, 4 + port as u8).await.unwrap());
+            }
+            let reports = |at: usize| expect_reports(&known[at], first_packet(speeds[at]), 8, 200);
+            both(both(reports(0), reports(1)), both(reports(2), reports(3))).await;
+        })
+        .expect("reports from all");
+    }
+}
+
 #[test]
 fn output_reports_reach_their_device() {
     for limit in [SpeedLimit::High, SpeedLimit::Full] {

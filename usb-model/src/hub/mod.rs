@@ -134,6 +134,9 @@ impl Hub {
         let Some(port) = self.ports.get(usize::from(token.port).wrapping_sub(1)) else {
             return self.complaints.push((Rule::SplitHub, format!("no port {}", token.port)));
         };
+        if !port.was_ever_enabled() {
+            self.complaints.push((Rule::SplitHub, format!("nobody was ever enabled at port {}", token.port)));
+        }
         if port.enabled_speed().is_some_and(|speed| speed != token.speed) {
             self.complaints.push((Rule::SplitHub, format!("port {} is not {:?} speed", token.port, token.speed)));
         }

@@ -139,9 +139,14 @@ impl Port {
         self.speed.filter(|_| self.connected)
     }
 
-    /// The speed of a device that was reset. What is said before is for who was there before.
+    /// The speed of a device that was reset. What is said before that is for who was there before.
     pub fn enabled_speed(&self) -> Option<Speed> {
         self.speed.filter(|_| self.enabled)
+    }
+
+    /// A device was reset here since the hub was.
+    pub fn was_ever_enabled(&self) -> bool {
+        self.reset_end > 0
     }
 
     /// wPortStatus and wPortChange.
