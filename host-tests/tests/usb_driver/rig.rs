@@ -264,6 +264,19 @@ impl Rig {
         }
     }
 
+    /// Lets time pass up to a moment before the driver's next poll.
+    pub fn pass_until(&self, moment: u64) {
+        while self.now() < moment {
+            let mut machine = self.machine();
+            machine.advance(moment);
+            let up = self.interrupts.get() && machine.core.irq();
+            drop(machine);
+            if up {
+                self.driver.on_interrupt();
+            }
+        }
+    }
+
     /// Lets this many microseconds pass.
     pub fn pass(&self, us: u64) {
         let end = self.now() + us;

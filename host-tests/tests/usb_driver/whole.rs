@@ -2,12 +2,14 @@
 //!
 //! | module | shows |
 //! | --- | --- |
+//! | `times` | how long it takes to the first report, and from a report to the state |
 //! | `swaps` | one device in another's place, at any moment |
 //! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
 mod rogues;
 mod swaps;
+mod times;
 
 use std::cell::Cell;
 use std::pin::Pin;
