@@ -16,7 +16,7 @@
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
-//! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -36,6 +36,7 @@ pub mod boot;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;
+pub mod code_size;
 pub mod commands;
 pub mod console;
 pub mod demo;

@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, and the FPGA's clocks.
+//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, the FPGA's clocks, and the size of the USB code.
 
 use std::env;
 use std::process::Command;
@@ -8,6 +8,7 @@ use anyhow::{Context, ensure};
 use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
+use crate::code_size;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
@@ -40,6 +41,7 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     measurements.extend(verilated.bench()?);
     step.done();
     measurements.extend(area::measurements()?);
+    measurements.push(code_size::measurement(&progress)?);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
