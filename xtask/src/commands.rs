@@ -6,6 +6,7 @@ pub mod decode;
 pub mod demo;
 pub mod generate;
 pub mod pad;
+pub mod prove;
 pub mod render;
 pub mod replay;
 pub mod run;

@@ -17,6 +17,7 @@
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
+//! | [`prove`] | theorems about the FPGA's design, proven |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -52,6 +53,7 @@ pub mod obj;
 pub mod paths;
 pub mod picture;
 pub mod progress;
+pub mod prove;
 pub mod qemu;
 pub mod qmp;
 pub mod render;
