@@ -32,7 +32,7 @@ async fn expect_reports(known: &Known, bytes: u16, interval: u8, count: u32) {
         let number = u32::from_le_bytes([report[0], report[1], report[2], report[3]]);
         assert_eq!(number, *first.get_or_insert(number) + step);
     }
-    println!("address {} interval {interval} first {first:?}", known.address);
+    assert_eq!(first, Some(0));
 }
 
 #[test]
@@ -99,9 +99,8 @@ fn pad_and_keyboard_report_side_by_side_while_the_hub_is_asked() {
 #[test]
 fn four_devices_share_a_translator() {
     use wire::Speed::{Full, Low};
-    for speeds in [[Low, Low, Full, Full], [Full, Low, Full, Low], [Low, Full, Full, Full], [Low; 4]] {
+    for speeds in [[Low, Low, Full, Full], [Full, Low, Full, Low], [Low, Full, Full, Full]] {
         let (rig, hub) = rig_with_hub(SpeedLimit::High);
-        println!("{speeds:?}");
         rig.run_for(30_000_000, async {
             let mut host = HubHost::on_root(&rig).await.unwrap();
             let mut known = Vec::new();
@@ -110,7 +109,14 @@ fn four_devices_share_a_translator() {
                 known.push(host.enumerate(&rig, port, 4 + port as u8).await.unwrap());
             }
             let reports = |at: usize| expect_reports(&known[at], first_packet(speeds[at]), 8, 200);
-            both(both(reports(0), reports(1)), both(reports(2), reports(3))).await;
+            // The slow bus is busy with this now and then when an interrupt endpoint has its turn.
+            let asking = async {
+                for _ in 0..300 {
+                    let mut control = known[0].control(first_packet(speeds[0]));
+                    control.control_out(&setup(0x40, KEEP, 0, 0, 64), &[5; 64]).await.unwrap();
+                }
+            };
+            both(both(asking, reports(1)), both(reports(2), reports(3))).await;
         })
         .expect("reports from all");
     }
