@@ -9,6 +9,7 @@ use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
 use crate::code_size;
+use crate::frame_model;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
@@ -40,8 +41,10 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let step = progress.step("counting the FPGA's clocks");
     measurements.extend(verilated.bench()?);
     step.done();
+    let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
     measurements.push(code_size::measurement(&progress)?);
+    measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
@@ -76,7 +79,8 @@ fn table(measurements: &[Measurement]) -> Table {
     ]);
     for it in measurements {
         let bar = it.bar.map(|bar| format!("{bar}")).unwrap_or_default();
-        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, it.verdict().unwrap_or_default()]);
+        let remark = it.verdict().or(it.note.as_deref()).unwrap_or_default();
+        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, remark]);
     }
     table
 }
