@@ -17,7 +17,7 @@
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
-//! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
 //! | [`card`] | what goes on the DE1-SoC's SD card |
 //! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
 //! | [`checks`] | the steps of `cargo xtask test` |
@@ -40,6 +40,7 @@ pub mod card;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;
+pub mod code_size;
 pub mod commands;
 pub mod console;
 pub mod demo;
