@@ -77,7 +77,7 @@ pub const VERTICES_MAX: usize = 256;
 /// Most faces of a block.
 pub const FACES_MAX: usize = 512;
 /// Most edges of a block.
-pub const EDGES_MAX: usize = 1024;
+pub const EDGES_MAX: usize = 3 * FACES_MAX;
 /// What a part of a normal is divided by to give −1…1.
 pub const NORMAL_ONE: i8 = 127;
 

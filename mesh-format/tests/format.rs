@@ -171,7 +171,7 @@ fn every_error_names_the_place_the_value_and_the_remedy() {
         (changed(64, &[0]), format!("block 0 has no vertex: {remake}")),
         (changed(64, &[1, 1]), format!("block 0 has 257 vertices, at most 256 are allowed: {remake}")),
         (changed(66, &[1, 2]), format!("block 0 has 513 faces, at most 512 are allowed: {remake}")),
-        (changed(68, &[1, 4]), format!("block 0 has 1025 edges, at most 1024 are allowed: {remake}")),
+        (changed(68, &[1, 6]), format!("block 0 has 1537 edges, at most 1536 are allowed: {remake}")),
         (changed(126, &[9]), format!("block 1 at byte 124 wants 116 bytes where 36 are left: {remake}")),
         (changed(28, &[3]), format!("block 2 at byte {length} wants 8 bytes where 0 are left: {remake}")),
         (changed(109, &[3]), format!("face 0 of block 0 names vertex 3 of 3: {remake}")),
