@@ -4,19 +4,20 @@
 //! lines, positions, normals, colours, and the material's base colour, which colours are multiplied by.
 //! Textures, skins, animations and points are passed over, points with a note. Buffers lie in the file itself.
 //!
-//! The crate checks the JSON and what names what; where the numbers lie is checked in `accessor` here, for the
-//! crate's own readers stop with a panic at some wrong ones.
+//! The crate reads the JSON and checks what names what. The file's parts and the numbers are read here, for the
+//! crate's own readers of these stop with a panic at some wrong ones.
 
 mod accessor;
+mod container;
 mod node;
 mod primitive;
 
 use std::fmt;
 use std::path::Path;
 
-use ::gltf::{Document, Gltf, binary};
+use ::gltf::{Document, json};
 
-use crate::{Model, Problem, ReadError};
+use crate::{Model, ReadError};
 
 /// What only a glTF file can have wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -128,25 +129,37 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
     if !bytes.starts_with(b"glTF") {
         return Err(ReadError::file(file, GltfProblem::NotBinary));
     }
-    let stated = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
-    if let Some(stated) = stated.filter(|stated| *stated as usize > bytes.len()) {
-        let reason = format!("{} bytes of {stated} that the header states", bytes.len());
-        return Err(ReadError::file(file, GltfProblem::Container { reason }));
-    }
-    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| ReadError::file(file, problem(error)))?;
-    let blob = blob.unwrap_or_default();
+    let (json, blob) = container::parts(bytes).map_err(|problem| ReadError::file(file, problem))?;
+    let failed = |error| ReadError::file(file, problem(error));
+    let root = json::deserialize::from_slice(json).map_err(|error| failed(::gltf::Error::Deserialize(error)))?;
+    check_positions(&root).map_err(|problem| ReadError::file(file, problem))?;
+    let document = Document::from_json(root).map_err(failed)?;
     let mut model = Model::empty();
     let scene = document.default_scene().or_else(|| document.scenes().next());
     if let Some(scene) = scene {
         let mut walk = node::Walk::new(document.nodes().len());
         for node in scene.nodes() {
-            node::add(&node, &node::Placed::IDENTITY, &mut walk, &blob, &mut model)
+            node::add(&node, &node::Placed::IDENTITY, &mut walk, blob, &mut model)
                 .map_err(|(part, problem)| ReadError::part(file, part, problem))?;
         }
     }
     note(&document, &mut model);
     model.outline_beside_lines();
     model.finish().map_err(|problem| ReadError::file(file, problem))
+}
+
+/// Checks that primitives name positions that exist: the crate's own check looks into them first.
+fn check_positions(root: &json::Root) -> Result<(), GltfProblem> {
+    for (mesh_index, mesh) in root.meshes.iter().enumerate() {
+        for (index, primitive) in mesh.primitives.iter().enumerate() {
+            let named = primitive.attributes.values().map(json::Index::value).max();
+            if named.is_some_and(|accessor| accessor >= root.accessors.len()) {
+                let part = format!("meshes[{mesh_index}].primitives[{index}].attributes");
+                return Err(GltfProblem::Json { reason: format!("{part}: Index out of bounds") });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Says what was left out that a person would miss.
@@ -163,32 +176,14 @@ fn note(document: &Document, model: &mut Model) {
     }
 }
 
-fn problem(error: ::gltf::Error) -> Problem {
-    let container = |reason: String| GltfProblem::Container { reason };
-    match error {
-        ::gltf::Error::Deserialize(error) => GltfProblem::Json { reason: shortened(&error.to_string()) },
+fn problem(error: ::gltf::Error) -> GltfProblem {
+    let reason = match error {
         ::gltf::Error::Validation(errors) => {
-            let reason = errors.first().map_or_else(String::new, |(path, error)| format!("{path}: {error}"));
-            GltfProblem::Json { reason: shortened(&reason) }
+            errors.first().map_or_else(String::new, |(path, error)| format!("{path}: {error}"))
         }
-        ::gltf::Error::Binary(error) => match error {
-            binary::Error::Version(version) => container(format!("binary glTF of version {version}, 2 is read")),
-            // Of what follows the header; the whole was looked at before.
-            binary::Error::Length { length, length_read } => {
-                container(format!("{length_read} bytes of {length} behind the header"))
-            }
-            binary::Error::ChunkLength { ty, length, length_read } => {
-                container(format!("{length_read} bytes of {length} that the {ty:?} chunk states"))
-            }
-            binary::Error::ChunkType(ty) => container(format!("a {ty:?} chunk where another must be")),
-            binary::Error::UnknownChunkType(ty) => container(format!("a chunk of unknown type {ty:02x?}")),
-            // Reading from memory fails at its end alone.
-            binary::Error::Io(_) => container("the file ends within its headers".into()),
-            binary::Error::Magic(magic) => container(format!("starts with {magic:02x?}")),
-        },
-        error => container(shortened(&error.to_string())),
-    }
-    .into()
+        error => error.to_string(),
+    };
+    GltfProblem::Json { reason: shortened(&reason) }
 }
 
 /// A reason may quote the file.

@@ -13,12 +13,12 @@ use crate::qemu::UsbIds;
 use values::{parse_rotation, parse_units, parse_usb_ids};
 
 pub use board::Board;
-pub use values::Rotation;
+pub use values::{RenderStyle, Rotation};
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
     ("See it work", &["demo", "run", "pad"]),
-    ("Draw a picture on this computer", &["render", "replay", "decode"]),
+    ("Draw a picture on this computer", &["render", "mesh", "replay", "decode"]),
     ("Check and measure", &["test", "bench", "area"]),
     ("Keep generated files fresh", &["generate"]),
 ];
@@ -63,13 +63,19 @@ pub enum Task {
     /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
     /// is over, until Ctrl-C.
     Pad(PadArguments),
-    /// Draws an OBJ model to a PNG file
+    /// Draws a model to a PNG file
     ///
-    /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
+    /// Takes OBJ, STL, Babylon JSON (.babylon), binary glTF (.glb), 99-bit lines (.rom, .mem, .coe)
+    /// and .mesh; the file's name tells which. The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
     /// faces go counter-clockwise. The view is from +z, fitted to the model, field of view 45°;
     /// the light comes from above on the left, in front. With --mvp the matrix is used as it is,
     /// and the light shines in the model's own space.
     Render(RenderArguments),
+    /// Turns a model into a .mesh file, which the firmware draws
+    ///
+    /// Reads what render reads. The file is compact, checked whole before it is drawn, and has a model of
+    /// any size in blocks. By default it has what flat and smooth drawing want.
+    Mesh(MeshArguments),
     /// Draws a file of packet words to a PNG file
     ///
     /// Shows the front buffer or, if the stream has no swap, the back buffer. Bad packets are
@@ -154,8 +160,8 @@ pub struct PadArguments {
 /// Flags of `render`.
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// Wavefront OBJ file
-    #[arg(value_name = "MODEL.obj")]
+    /// The model: .obj, .stl, .babylon, .glb, .rom or .mesh
+    #[arg(value_name = "MODEL")]
     pub model: PathBuf,
     /// PNG file to write
     #[arg(short, long, value_name = "OUT.png")]
@@ -166,6 +172,9 @@ pub struct RenderArguments {
     /// Model-view-projection matrix instead of the fitted view: a file of 16 numbers, row by row
     #[arg(long, value_name = "FILE", conflicts_with = "rotate")]
     pub mvp: Option<PathBuf>,
+    /// How it is drawn; a model of lines is always drawn as lines
+    #[arg(long, value_enum, default_value_t = RenderStyle::Flat)]
+    pub style: RenderStyle,
     /// Draws triangles that face away as well
     #[arg(long)]
     pub two_sided: bool,
@@ -179,6 +188,32 @@ pub struct RenderArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
+}
+
+/// Flags of `mesh`.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    /// The model: .obj, .stl, .babylon, .glb, .rom or .mesh
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "FILE.mesh")]
+    pub output: PathBuf,
+    /// Keeps no more than flat drawing wants
+    #[arg(long, conflicts_with = "smooth")]
+    pub flat: bool,
+    /// Keeps no more than smooth drawing wants
+    #[arg(long)]
+    pub smooth: bool,
+    /// Moves the model's middle to the origin and scales it to a radius of 1
+    #[arg(long)]
+    pub scale_to_fit: bool,
+    /// Has faces seen from both sides
+    #[arg(long)]
+    pub two_sided: bool,
+    /// Takes the model's faces as going clockwise, seen from outside
+    #[arg(long)]
+    pub clockwise: bool,
 }
 
 /// Flags of `replay`.
@@ -268,6 +303,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Run(arguments) => commands::run::run(arguments),
         Task::Pad(arguments) => commands::pad::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
+        Task::Mesh(arguments) => commands::mesh::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
         Task::Bench(arguments) => commands::bench::run(arguments),
@@ -376,6 +412,9 @@ mod tests {
             "test --only usb",
             "replay w -o o.png --depth d",
             "decode w",
+            "mesh a.stl -o a.mesh --flat --scale-to-fit",
+            "mesh a.stl -o a.mesh --smooth --two-sided --clockwise",
+            "render a.glb -o a.png --style hidden",
             "bench --json",
             "generate --check",
             "generate --golden",
@@ -383,5 +422,6 @@ mod tests {
             assert!(parse(line).is_ok(), "{line}");
         }
         assert!(parse("demo --board c64").is_err());
+        assert!(parse("mesh a.stl -o a.mesh --smooth --flat").is_err());
     }
 }

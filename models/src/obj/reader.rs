@@ -175,15 +175,13 @@ impl Builder {
         let mut parts = word.split('/');
         let index: i64 = parts.next().unwrap_or_default().parse().map_err(|_| not_an_index())?;
         let mut others = [None; 2];
-        let mut count = 0;
-        for part in parts {
+        for (count, part) in parts.enumerate() {
             // Only the texture number may be left out, and only where a normal follows; exporters
             // leave `v/` and `v//` as well, which say the same as `v`.
             let slot = others.get_mut(count).ok_or_else(not_an_index)?;
             if !part.is_empty() {
                 *slot = Some(part.parse::<i64>().map_err(|_| not_an_index())?);
             }
-            count += 1;
         }
         let corner = self.index(Named::Vertices, index, line)?;
         let normal = others[1].map(|index| self.index(Named::Normals, index, line)).transpose()?;

@@ -79,7 +79,7 @@ fn every_error_names_its_place_value_and_remedy() {
             mesh("\"indices\":[-1]"),
             format!("m.babylon:1: invalid value: integer `-1`, expected u32 (column 59): {again}"),
         ),
-        (mesh("\"vertices\":[1e999]"), format!("m.babylon:1: number out of range (column 65): {again}")),
+        (mesh("\"vertices\":[1e999]"), format!("m.babylon:1: number out of range (column 63): {again}")),
         (
             mesh("\"uvCount\":3,\"vertices\":[]"),
             format!("{at}`uvCount` is 3, layouts are known for 0, 1 and 2: export with 2 texture maps or fewer"),

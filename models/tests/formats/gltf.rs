@@ -144,14 +144,29 @@ fn every_error_names_its_place_value_and_remedy() {
     version[4] = 3;
     let mut chunk = file.clone();
     chunk[16] = b'X';
-    let cases: [(Vec<u8>, String); 16] = [
+    let mut long = file.clone();
+    long[12] = 0xff;
+    let cases: [(Vec<u8>, String); 19] = [
+        (file[..9].to_vec(), "m.glb: 9 bytes, fewer than the header's 12: copy or export the file again".into()),
+        (
+            long,
+            format!(
+                "m.glb: the part at byte 12 states {} bytes, {} are left: copy or export the file again",
+                u32::from_le_bytes([0xff, file[13], file[14], file[15]]),
+                file.len() - 20
+            ),
+        ),
+        (
+            changed("\"POSITION\":0", "\"POSITION\":4"),
+            "m.glb: meshes[0].primitives[0].attributes: Index out of bounds: export the scene as .glb again".into(),
+        ),
         (good.clone().into_bytes(), "m.glb: is not binary glTF: export the scene as one .glb file".into()),
         (version, "m.glb: binary glTF of version 3, 2 is read: copy or export the file again".into()),
         (
             file[..15].to_vec(),
             format!("m.glb: 15 bytes of {} that the header states: copy or export the file again", file.len()),
         ),
-        (chunk, "m.glb: a chunk of unknown type [58, 53, 4f, 4e]: copy or export the file again".into()),
+        (chunk, "m.glb: no JSON behind the header: copy or export the file again".into()),
         (glb("{", &[]), "m.glb: EOF while parsing an object at line 1 column 4: export the scene as .glb again".into()),
         (
             changed("\"mesh\":0", "\"mesh\":7"),

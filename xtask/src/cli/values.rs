@@ -1,5 +1,7 @@
 //! Values of flags that are more than a word or a number.
 
+use clap::ValueEnum;
+
 use crate::qemu::UsbIds;
 use crate::verilated::UNITS;
 
@@ -8,6 +10,21 @@ use crate::verilated::UNITS;
 pub struct Rotation {
     /// Degrees about the x, y and z axis, each finite.
     pub degrees: [f64; 3],
+}
+
+/// How `render` draws a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum RenderStyle {
+    /// A colour a face
+    Flat,
+    /// Lit at every vertex, the colour changing over the face
+    Smooth,
+    /// All edges
+    Wire,
+    /// The edges that no face hides
+    Hidden,
+    /// Depth as grey, the farther the darker
+    Depth,
 }
 
 /// Reads `054c:0268`, as lsusb has it.
