@@ -29,8 +29,11 @@ pub(super) fn parts(file: &[u8]) -> Result<(&[u8], &[u8]), GltfProblem> {
     Ok((json, binary))
 }
 
+/// A part, and what follows it.
+type Cut<'a> = (&'a [u8], &'a [u8]);
+
 /// Cuts the part at `at` off, if there is one of this type; returns it with what follows.
-fn chunk(file: &[u8], at: usize, wanted: [u8; 4]) -> Result<Option<(&[u8], &[u8])>, GltfProblem> {
+fn chunk(file: &[u8], at: usize, wanted: [u8; 4]) -> Result<Option<Cut<'_>>, GltfProblem> {
     let Some((header, rest)) = file.get(at..).and_then(|rest| rest.split_first_chunk::<CHUNK_HEADER>()) else {
         return Ok(None);
     };
