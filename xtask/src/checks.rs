@@ -3,6 +3,7 @@
 mod board;
 mod cargo;
 mod fpga;
+mod prove;
 mod rtl;
 mod usb;
 
@@ -65,6 +66,8 @@ const CHECKS: &[Check] = &[
         name: "the FPGA's design equals the software model, with 1, 2, 4 and 8 pixel units",
         run: |_| rtl::tests(),
     },
+    Check { name: "theorems about the FPGA's design are proven", run: prove::theorems },
+    Check { name: "theorems about a broken design are not", run: prove::broken_designs },
     Check { name: "a wave of the FPGA's design shows its words", run: |_| rtl::waves() },
     Check { name: "this computer has a Rust toolchain for the boards", run: toolchain },
     Check { name: "this computer has QEMU", run: qemu },

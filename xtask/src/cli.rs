@@ -19,7 +19,7 @@ pub use values::{RenderStyle, Rotation};
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
     ("See it work", &["demo", "run", "pad"]),
     ("Draw a picture on this computer", &["render", "mesh", "replay", "decode"]),
-    ("Check and measure", &["test", "bench", "area"]),
+    ("Check and measure", &["test", "bench", "prove", "area"]),
     ("Keep generated files fresh", &["generate"]),
 ];
 
@@ -94,6 +94,12 @@ pub enum Task {
     /// Counts the Cortex-A9's instructions in QEMU and the FPGA's clocks in Verilator, and times
     /// geometry and software model on this computer, as an optimised build: median of several runs.
     Bench(BenchArguments),
+    /// Proves theorems about the FPGA's design
+    ///
+    /// That the command FIFO loses nothing and that the traversal visits every covered pixel's tile
+    /// exactly once, at full size: Yosys makes the formulas, Bitwuzla decides them. Both come from PyPI
+    /// into target/setup; formulas and logs stay in target/prove. rtl/formal has the theorems.
+    Prove(ProveArguments),
     /// Counts what the FPGA's design takes of the device, with Yosys
     ///
     /// Writes the table into rtl/README.md; logs stay in target/area. Yosys maps to the Cyclone V's
@@ -267,6 +273,14 @@ pub struct AreaArguments {
     pub units: Option<u32>,
 }
 
+/// Flags of `prove`.
+#[derive(Debug, Args)]
+pub struct ProveArguments {
+    /// Proves what depends on the number of pixel units for this number only
+    #[arg(long, value_name = "1|2|4|8", value_parser = parse_units)]
+    pub units: Option<u32>,
+}
+
 /// Flags of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
@@ -307,6 +321,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
         Task::Bench(arguments) => commands::bench::run(arguments),
+        Task::Prove(arguments) => commands::prove::run(arguments),
         Task::Area(arguments) => commands::area::run(arguments),
         Task::Generate(arguments) => commands::generate::run(arguments),
     }

@@ -7,6 +7,7 @@ pub mod demo;
 pub mod generate;
 pub mod mesh;
 pub mod pad;
+pub mod prove;
 pub mod render;
 pub mod replay;
 pub mod run;

@@ -16,6 +16,7 @@
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
+//! | [`prove`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
@@ -49,6 +50,7 @@ pub mod model;
 pub mod paths;
 pub mod picture;
 pub mod progress;
+pub mod prove;
 pub mod qemu;
 pub mod qmp;
 pub mod render;
