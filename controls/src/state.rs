@@ -1,6 +1,6 @@
 //! What the application sees.
 
-use crate::{Battery, Buttons, Source, Stick, Tilt};
+use crate::{Battery, Buttons, Request, Source, Stick, Tilt};
 use fixed::types::I2F14;
 
 /// Holds everything that the controls say in one frame, whatever it came from.
@@ -23,6 +23,8 @@ pub struct ControllerState {
     pub pressed: Buttons,
     /// The buttons that went up in this frame, even if they are down again.
     pub released: Buttons,
+    /// The step of this frame: of those that were asked for and not yet done, the first.
+    pub asked: Option<Request>,
     /// A pad has reported and not been disconnected.
     pub pad_present: bool,
     /// How full the pad's battery is.

@@ -35,6 +35,14 @@ pub enum HostMessage {
     Fault(Fault),
     /// Answer with [`BoardMessage::Status`].
     Ask,
+    /// Show another scene from its beginning, or in another style, and go on; numbers that there are not change
+    /// nothing and are told on the console. A scene begins in its own style.
+    Show {
+        /// Index into [`Scene::ALL`](crate::scene::Scene::ALL).
+        scene: Option<u8>,
+        /// Index into [`Style::ALL`](crate::style::Style::ALL).
+        style: Option<u8>,
+    },
 }
 
 /// A fault on purpose.

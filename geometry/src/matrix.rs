@@ -83,15 +83,10 @@ impl Matrix {
     pub fn perspective(field_of_view: Angle, aspect: I32F32, near: I32F32, far: I32F32) -> Self {
         let (sine, cosine) = Angle::from_bits(field_of_view.to_bits() / 2).sin_cos();
         let cotangent = divide(cosine.into(), sine.into());
-        let depth = near.saturating_sub(far);
         let mut rows = [[ZERO; 4]; 4];
         rows[0][0] = divide(cotangent, aspect);
         rows[1][1] = cotangent;
-        rows[2][2] = divide(far.saturating_add(near), depth);
-        // 2·far·near/(near − far), with one rounding.
-        let product = i128::from(far.to_bits()) * i128::from(near.to_bits());
-        rows[2][3] = saturate(round_quotient(product.saturating_mul(2), i128::from(depth.to_bits())));
-        rows[3][2] = -ONE;
+        [rows[2], rows[3]] = depth_rows(near, far);
         Self { rows }
     }
 
@@ -108,6 +103,21 @@ impl Matrix {
             matrix.rows[axis][3] = divide(high.saturating_add(low).saturating_neg(), size);
         }
         matrix
+    }
+
+    /// Returns OpenGL's frustum: a perspective through a window in the near plane. `x` and `y` are the
+    /// window's (low, high) ends there, `depth` the (near, far) planes' distances, 0 < near < far.
+    ///
+    /// An empty window gives a useless matrix, not a panic.
+    pub fn frustum(x: (I32F32, I32F32), y: (I32F32, I32F32), (near, far): (I32F32, I32F32)) -> Self {
+        let mut rows = [[ZERO; 4]; 4];
+        for (row, (low, high)) in [x, y].into_iter().enumerate() {
+            let size = high.saturating_sub(low);
+            rows[row][row] = divide(near.saturating_mul_int(2), size);
+            rows[row][2] = divide(high.saturating_add(low), size);
+        }
+        [rows[2], rows[3]] = depth_rows(near, far);
+        Self { rows }
     }
 
     /// Returns the view from `eye` towards `target`, with `up` upwards on screen.
@@ -139,6 +149,15 @@ impl Matrix {
         }
         Self { rows }
     }
+}
+
+/// The rows z and w of a projection in which what is farther is smaller.
+fn depth_rows(near: I32F32, far: I32F32) -> [[I32F32; 4]; 2] {
+    let depth = near.saturating_sub(far);
+    // 2·far·near/(near − far), with one rounding.
+    let product = i128::from(far.to_bits()) * i128::from(near.to_bits());
+    let offset = saturate(round_quotient(product.saturating_mul(2), i128::from(depth.to_bits())));
+    [[ZERO, ZERO, divide(far.saturating_add(near), depth), offset], [ZERO, ZERO, -ONE, ZERO]]
 }
 
 /// Returns the scalar product: summed in 128 bits, rounded once, half up, saturated.

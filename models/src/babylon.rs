@@ -2,7 +2,7 @@
 //!
 //! A scene has meshes, each with `indices` and either `vertices`, 6, 8 or 10 numbers a vertex as its
 //! `uvCount` is 0, 1 or 2 (position, normal, texture coordinates: Blender's exporter of 2013), or
-//! `positions`, `normals` and `colors` (today's). A mesh's `scaling`, `rotation` or
+//! `positions`, `normals` and `colors` (today's). Its material's `diffuse` colour counts where it has no colours. A mesh's `scaling`, `rotation` or
 //! `rotationQuaternion`, and `position` put it into the scene; the place of a parent does not count, which
 //! is noted. Everything else is passed over.
 //!
@@ -87,6 +87,15 @@ impl fmt::Display for BabylonProblem {
 #[derive(Deserialize)]
 struct Scene {
     meshes: Vec<Mesh>,
+    #[serde(default)]
+    materials: Vec<Material>,
+}
+
+#[derive(Deserialize)]
+struct Material {
+    #[serde(default)]
+    id: String,
+    diffuse: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -99,6 +108,7 @@ struct Mesh {
     positions: Option<Vec<f64>>,
     normals: Option<Vec<f64>>,
     colors: Option<Vec<f64>>,
+    material_id: Option<String>,
     indices: Option<Vec<u32>>,
     scaling: Option<[f64; 3]>,
     rotation: Option<[f64; 3]>,
@@ -123,7 +133,10 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
     let mut model = Model::empty();
     for (number, mesh) in scene.meshes.iter().enumerate() {
         let name = || format!("mesh {number} `{}`", quoted(mesh.name.as_deref().unwrap_or_default()));
-        add(mesh, &mut model).map_err(|problem| ReadError::part(file, name(), problem))?;
+        let material = scene.materials.iter().find(|material| Some(&material.id) == mesh.material_id.as_ref());
+        let diffuse = material.and_then(|material| material.diffuse);
+        add(mesh, diffuse.map_or(PLAIN, colour), &mut model)
+            .map_err(|problem| ReadError::part(file, name(), problem))?;
     }
     if scene.meshes.iter().any(|mesh| mesh.parent_id.as_ref().is_some_and(|parent| !parent.is_null())) {
         model.notes.push("meshes have parents, whose place does not count: apply it before exporting".into());
@@ -137,7 +150,7 @@ fn quoted_reason(reason: &str) -> String {
     reason.chars().take(CHARACTERS).flat_map(char::escape_debug).collect()
 }
 
-fn add(mesh: &Mesh, model: &mut Model) -> Result<(), Problem> {
+fn add(mesh: &Mesh, diffuse: [f32; 3], model: &mut Model) -> Result<(), Problem> {
     let Some(lists) = mesh.lists()? else {
         // A mesh without vertices is an empty object that others hang on.
         return Ok(());
@@ -171,6 +184,7 @@ fn add(mesh: &Mesh, model: &mut Model) -> Result<(), Problem> {
             model.corner_normals.extend(corners.map(normal));
         }
         model.push_triangle(corners.map(|corner| first as u32 + corner))?;
+        model.face_colours.get_or_insert_default().push(diffuse);
     }
     Ok(())
 }

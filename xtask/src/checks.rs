@@ -80,6 +80,7 @@ const CHECKS: &[Check] = &[
         run: board::demonstration,
     },
     Check { name: "the demonstration on raspi2b equals the golden one", run: board::demonstration_on_raspi2b },
+    Check { name: "the pictures of the five systems equal the golden ones on vexpress-a9", run: board::seeds },
     Check { name: "a serial line that loses bytes costs what it carried, no more", run: board::lossy_line },
     Check { name: "the firmware reports faults and panics, and ends", run: board::faults },
     Check { name: "usb: a keyboard on the root port", run: usb::on_the_root_port },

@@ -7,13 +7,15 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::commands;
 use crate::qemu::UsbIds;
-use values::{parse_rotation, parse_units, parse_usb_ids};
+use values::{parse_rotation, parse_scene, parse_style, parse_units, parse_usb_ids};
 
 pub use board::Board;
-pub use values::{RenderStyle, Rotation};
+pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
 const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
@@ -115,6 +117,12 @@ pub struct DemoArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Plays the pictures of the five systems that the project grows out of instead
+    #[arg(long)]
+    pub seeds: bool,
+    /// Plays this scene's parts of both sessions alone
+    #[arg(long, value_name = "NAME", conflicts_with = "seeds", value_parser = parse_scene)]
+    pub scene: Option<Scene>,
     /// Writes the packet words of all frames as well, for replay and decode
     #[arg(long, value_name = "FILE")]
     pub dump: Option<PathBuf>,
@@ -134,6 +142,12 @@ pub struct RunArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Scene to begin with: plate, torus, tunnel, solids, wireframe or polygons
+    #[arg(long, value_name = "NAME", value_parser = parse_scene)]
+    pub scene: Option<Scene>,
+    /// Style to begin with: flat, smooth, wireframe, hidden-lines or depth-as-grey
+    #[arg(long, value_name = "STYLE", value_parser = parse_style)]
+    pub style: Option<Style>,
     /// Opens no window; stops after --frames and leaves them in --output
     #[arg(long, requires = "frames", requires = "output")]
     pub headless: bool,
@@ -178,9 +192,10 @@ pub struct RenderArguments {
     /// Model-view-projection matrix instead of the fitted view: a file of 16 numbers, row by row
     #[arg(long, value_name = "FILE", conflicts_with = "rotate")]
     pub mvp: Option<PathBuf>,
-    /// How it is drawn; a model of lines is always drawn as lines
-    #[arg(long, value_enum, default_value_t = RenderStyle::Flat)]
-    pub style: RenderStyle,
+    /// How it is drawn: flat, smooth, wireframe, hidden-lines or depth-as-grey; a model of lines is always
+    /// drawn as lines
+    #[arg(long, value_name = "STYLE", value_parser = parse_style, default_value = "flat")]
+    pub style: Style,
     /// Draws triangles that face away as well
     #[arg(long)]
     pub two_sided: bool,
@@ -429,7 +444,7 @@ mod tests {
             "decode w",
             "mesh a.stl -o a.mesh --flat --scale-to-fit",
             "mesh a.stl -o a.mesh --smooth --two-sided --clockwise",
-            "render a.glb -o a.png --style hidden",
+            "render a.glb -o a.png --style hidden-lines",
             "bench --json",
             "generate --check",
             "generate --golden",

@@ -1,10 +1,11 @@
 //! The files that are written from one source and committed: the contract's reference page, its
-//! SystemVerilog packages, the plate that the firmware shows, and the demonstration's session.
+//! SystemVerilog packages, the plate that the firmware shows, and the sessions.
 
 mod board_package;
 mod plate;
 mod reference_page;
 mod rtl_package;
+mod seeds;
 mod session;
 
 use anyhow::Context;
@@ -50,6 +51,7 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "fpga/board_io_pkg.sv", text: board_package::text() },
         GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
+        GeneratedFile { path: crate::session::SEEDS, text: seeds::text() },
     ])
 }
 

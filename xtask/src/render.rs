@@ -15,7 +15,6 @@ use geometry::{
     Unlit,
 };
 
-use crate::cli::RenderStyle;
 use crate::model::Model;
 use crate::picture::Picture;
 use crate::software_fpga::{NoWait, SharedModel, with_model};
@@ -30,7 +29,7 @@ pub struct View {
     /// Which faces are drawn.
     pub culling: Culling,
     /// How they are drawn.
-    pub style: RenderStyle,
+    pub style: Style,
 }
 
 /// A triangle as it was set up.
@@ -88,22 +87,23 @@ fn draw_styled(
     recorder: &mut Recorder,
 ) -> anyhow::Result<DrawStatistics> {
     let mesh = model.mesh()?;
-    let style = if model.is_wire() { RenderStyle::Wire } else { view.style };
+    let style = if model.is_wire() { Style::Wire } else { view.style };
     let lines = |recorder: &mut Recorder| transformed.draw_lines(&model.edges(&mesh), &Style::LINES, recorder);
     Ok(match style {
-        RenderStyle::Flat => transformed.draw(light, view.culling, recorder),
-        RenderStyle::Smooth => {
+        Style::Flat => transformed.draw(light, view.culling, recorder),
+        Style::Smooth => {
             let looks = model.looks(&mesh);
             let mut lit = vec![LitColour::default(); looks.len()];
-            transformed.draw_smooth(&looks, light, &mut lit, view.culling, recorder)?
+            let lit = transformed.light_vertices(&looks, light, &mut lit)?;
+            transformed.draw_smooth(&lit, view.culling, recorder)
         }
-        RenderStyle::Wire => lines(recorder),
-        RenderStyle::Hidden => {
+        Style::Wire => lines(recorder),
+        Style::HiddenLines => {
             let hiding = transformed.draw_unlit(Unlit::HIDING, view.culling, recorder);
             let lines = lines(recorder);
             DrawStatistics { drawn: hiding.drawn + lines.drawn, ..hiding }
         }
-        RenderStyle::Depth => transformed.draw_unlit(Unlit::DEPTH_GREY, view.culling, recorder),
+        Style::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, view.culling, recorder),
     })
 }
 
@@ -166,10 +166,10 @@ mod tests {
     const TETRAHEDRON: &str = "v 101 1 1\nv 101 -1 -1\nv 99 1 -1\nv 99 -1 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
 
     fn rendered(culling: Culling) -> Rendered {
-        in_style(culling, RenderStyle::Flat)
+        in_style(culling, Style::Flat)
     }
 
-    fn in_style(culling: Culling, style: RenderStyle) -> Rendered {
+    fn in_style(culling: Culling, style: Style) -> Rendered {
         let obj = models::obj::parse_obj(TETRAHEDRON.as_bytes(), Path::new("t.obj"), |_| Ok(None)).expect("a model");
         let model = Model::new(&obj).expect("of a usual size");
         let fit = Fit::new(&obj.positions, [20.0, 30.0, 0.0]);
@@ -217,13 +217,13 @@ mod tests {
         let covered =
             |rendered: &Rendered| -> Vec<bool> { rendered.picture.pixels().map(|pixel| pixel != [0; 3]).collect() };
         let of = |style| in_style(Culling::BackFaces, style);
-        let flat = of(RenderStyle::Flat);
-        assert_eq!(covered(&of(RenderStyle::Smooth)), covered(&flat));
-        assert_eq!(covered(&of(RenderStyle::Depth)), covered(&flat));
+        let flat = of(Style::Flat);
+        assert_eq!(covered(&of(Style::Smooth)), covered(&flat));
+        assert_eq!(covered(&of(Style::DepthGrey)), covered(&flat));
         let count = |style| covered(&of(style)).iter().filter(|is| **is).count();
-        let (wire, hidden) = (count(RenderStyle::Wire), count(RenderStyle::Hidden));
+        let (wire, hidden) = (count(Style::Wire), count(Style::HiddenLines));
         // Six edges, of which the far ones are hidden.
         assert!(wire > hidden && hidden > 300, "{wire} {hidden}");
-        assert_eq!(of(RenderStyle::Wire).statistics.drawn, 6);
+        assert_eq!(of(Style::Wire).statistics.drawn, 6);
     }
 }

@@ -62,6 +62,14 @@ fn scaling_comes_before_rotation_and_rotation_before_position() {
 }
 
 #[test]
+fn a_material_colours_its_mesh() {
+    let materials = "\"materials\":[{\"id\":\"b\",\"diffuse\":[1,0.5,-1]},{\"id\":\"none\"}]";
+    let meshes = ["b", "none", "c"].map(|id| format!("{{\"materialId\":\"{id}\",{}}}", triangle(0))).join(",");
+    let model = parse(&format!("{{{materials},\"meshes\":[{meshes}]}}")).expect("a good scene");
+    assert_eq!(model.face_colours, Some(vec![[1.0, 0.5, 0.0], PLAIN, PLAIN]));
+}
+
+#[test]
 fn a_parent_is_noted() {
     let model = parse(&scene(&format!("{{\"parentId\":\"x\",{}}}", triangle(0)))).expect("a good scene");
     assert_eq!(model.notes, ["meshes have parents, whose place does not count: apply it before exporting"]);

@@ -1,8 +1,10 @@
 //! Values of flags that are more than a word or a number.
 
-use clap::ValueEnum;
+use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::qemu::UsbIds;
+use crate::session;
 use crate::verilated::UNITS;
 
 /// Angles about the x, y and z axis, in degrees.
@@ -10,21 +12,6 @@ use crate::verilated::UNITS;
 pub struct Rotation {
     /// Degrees about the x, y and z axis, each finite.
     pub degrees: [f64; 3],
-}
-
-/// How `render` draws a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum RenderStyle {
-    /// A colour a face
-    Flat,
-    /// Lit at every vertex, the colour changing over the face
-    Smooth,
-    /// All edges
-    Wire,
-    /// The edges that no face hides
-    Hidden,
-    /// Depth as grey, the farther the darker
-    Depth,
 }
 
 /// Reads `054c:0268`, as lsusb has it.
@@ -59,6 +46,16 @@ pub(super) fn parse_rotation(text: &str) -> Result<Rotation, String> {
         };
     }
     Ok(Rotation { degrees })
+}
+
+/// Reads a scene's name.
+pub(super) fn parse_scene(text: &str) -> Result<Scene, String> {
+    session::scene_named(text).map_err(|error| error.to_string())
+}
+
+/// Reads a style's name.
+pub(super) fn parse_style(text: &str) -> Result<Style, String> {
+    session::style_named(text).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

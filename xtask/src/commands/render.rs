@@ -5,10 +5,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, anyhow};
+use firmware::style::Style;
 use fpga_regs::screen::{HEIGHT, WIDTH};
 use geometry::{Culling, Matrix};
 
-use crate::cli::{RenderArguments, RenderStyle};
+use crate::cli::RenderArguments;
 use crate::model::Model;
 use crate::picture::{write_depth_pgm, write_png};
 use crate::render::camera::{Fit, of_window, to_matrix};
@@ -54,7 +55,7 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     println!(
         "{} vertices; {} {} submitted, {} drawn, {} clipped; {} words; {:.2} s",
         number(statistics.vertices),
-        if model.is_wire() || arguments.style == RenderStyle::Wire { "lines" } else { "triangles" },
+        if model.is_wire() || arguments.style == Style::Wire { "lines" } else { "triangles" },
         number(statistics.submitted),
         number(statistics.drawn),
         number(statistics.clipped),

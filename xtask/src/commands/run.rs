@@ -5,10 +5,11 @@ use std::path::Path;
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
+use firmware::scene::Scene;
 
 use crate::boot::{Bootable, check_runs, start_with_log};
 use crate::cli::{Board, RunArguments};
-use crate::machine::Link;
+use crate::machine::{Emulated, Link};
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
@@ -36,7 +37,7 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
 /// Plays the recorded session, from its beginning and again if need be, and saves each frame.
 fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Result<()> {
     let progress = Progress::new();
-    let parts = session::demo()?;
+    let parts = parts(arguments)?;
     fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
     let bootable = Bootable::prepare(arguments.board, &progress)?;
     let mut machine = bootable.start(&target_folder().join("run"))?;
@@ -58,6 +59,19 @@ fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Resu
     Ok(())
 }
 
+/// Returns what is played: the demonstration's session or, of a scene or in a style that is named, the pictures of the
+/// five systems; a scene that has none there holds still.
+fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
+    if arguments.scene.is_none() && arguments.style.is_none() {
+        return session::demo();
+    }
+    let scene = arguments.scene.unwrap_or(Scene::ALL[0]);
+    let known = [session::seeds()?, session::demo()?].concat();
+    let named = known.into_iter().find(|part| part.scene == scene);
+    let part = named.unwrap_or(ScenePart { scene, style: None, frames: vec![None] });
+    Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
+}
+
 /// Returns a session that is repeated and cut to `count` frames.
 fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
     let mut left = count;
@@ -68,7 +82,7 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
         }
         let frames = part.frames[..part.frames.len().min(left)].to_vec();
         left -= frames.len();
-        taken.push(ScenePart { scene: part.scene, frames });
+        taken.push(ScenePart { frames, ..part.clone() });
     }
     taken
 }
@@ -108,10 +122,12 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     options.console_on_stdout = true;
     let (mut qemu, log) = start_with_log(&options, &folder)?;
     qemu.resume()?;
+    let mut machine = Emulated::new(qemu, log)?;
+    if arguments.scene.is_some() || arguments.style.is_some() {
+        Link::new(&mut machine).show(arguments.scene, arguments.style)?;
+    }
     println!("click into the window, then use the keyboard; close the window to end");
-    let status = qemu.wait_for_exit(WINDOW_LIMIT)?;
-    drop(qemu);
-    log.map(crate::log_decoder::LogDecoder::finish);
+    let status = machine.wait_for_exit(WINDOW_LIMIT)?;
     ensure!(status.success(), "the firmware ended with {status}; its last words stand above");
     Ok(())
 }
@@ -121,7 +137,6 @@ mod tests {
     use super::*;
     use crate::cli::{Cli, Task};
     use clap::Parser;
-    use firmware::scene::Scene;
 
     /// Returns what is plugged in, and the message when that is refused.
     fn plugged(line: &str) -> Result<usize, String> {
@@ -143,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_session_is_repeated_and_cut() {
-        let part = |scene, count| ScenePart { scene, frames: vec![None; count] };
+        let part = |scene, count| ScenePart { scene, style: None, frames: vec![None; count] };
         let parts = [part(Scene::Plate, 3), part(Scene::Torus, 0), part(Scene::Tunnel, 2)];
         let lengths = |count| {
             let taken = first_frames(&parts, count);
