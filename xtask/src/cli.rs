@@ -154,6 +154,9 @@ pub struct RunArguments {
     /// Number of frames to draw (with --headless)
     #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: Option<u32>,
+    /// Shows a model: one of those that render reads, put into the board's memory as a .mesh file
+    #[arg(long, value_name = "MODEL")]
+    pub model: Option<PathBuf>,
     /// Plugs in what a usbredir server at this Unix socket has: `cargo xtask pad SOCKET`, say
     #[arg(long, value_name = "SOCKET", conflicts_with = "headless")]
     pub pad: Option<PathBuf>,
@@ -442,6 +445,8 @@ mod tests {
             "test --only usb",
             "replay w -o o.png --depth d",
             "decode w",
+            "run --model a.stl --board raspi2b",
+            "run --model a.mesh --headless --frames 3 --output d --style wireframe",
             "mesh a.stl -o a.mesh --flat --scale-to-fit",
             "mesh a.stl -o a.mesh --smooth --two-sided --clockwise",
             "render a.glb -o a.png --style hidden-lines",

@@ -2,9 +2,9 @@
 
 use anyhow::{Context, bail};
 use fixed::types::I4F28;
+use geometry::VertexLook;
 use geometry::look::looks_of_faces;
 use geometry::mesh::{Face, Mesh, Position, Winding};
-use geometry::{VertexLook, wire};
 
 /// Half the range that a model is scaled into: coordinates of −4…4 of the −8…8 there is.
 const LARGEST_LOG2: i32 = 2;
@@ -14,8 +14,8 @@ const LARGEST_LOG2: i32 = 2;
 pub struct Model {
     positions: Vec<Position>,
     faces: Vec<Face>,
-    /// The model's own lines; without any, its edges.
-    lines: Vec<[u32; 2]>,
+    /// The model's own lines; without any, its polygons' outlines, each edge once.
+    edges: Vec<[u32; 2]>,
     /// What a stored coordinate is multiplied by to give the file's: 2 to this.
     pub scale_log2: i32,
 }
@@ -46,7 +46,13 @@ impl Model {
                 Face { corners, normal, colour }
             }));
         }
-        Ok(Self { positions, faces, lines: source.lines.clone(), scale_log2 })
+        let mut edges = source.lines.clone();
+        if edges.is_empty() {
+            edges = source.outlines().map(|[from, to]| [from.min(to), from.max(to)]).collect();
+            edges.sort_unstable();
+            edges.dedup();
+        }
+        Ok(Self { positions, faces, edges, scale_log2 })
     }
 
     /// Returns the model as a mesh, counter-clockwise as OBJ has it.
@@ -65,13 +71,9 @@ impl Model {
         looks
     }
 
-    /// Returns the model's lines, or its mesh's edges, each once.
-    pub fn edges(&self, mesh: &Mesh<'_>) -> Vec<[u32; 2]> {
-        if !self.lines.is_empty() {
-            return self.lines.clone();
-        }
-        let mut buffer = vec![[0; 2]; 3 * self.faces.len()];
-        wire::edges(mesh, &mut buffer).unwrap_or(&[]).to_vec()
+    /// Returns the model's lines, or its polygons' edges, each once.
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
     }
 
     /// Returns whether there is nothing but lines.

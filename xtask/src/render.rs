@@ -88,7 +88,7 @@ fn draw_styled(
 ) -> anyhow::Result<DrawStatistics> {
     let mesh = model.mesh()?;
     let style = if model.is_wire() { Style::Wire } else { view.style };
-    let lines = |recorder: &mut Recorder| transformed.draw_lines(&model.edges(&mesh), &Style::LINES, recorder);
+    let lines = |recorder: &mut Recorder| transformed.draw_lines(model.edges(), &Style::LINES, recorder);
     Ok(match style {
         Style::Flat => transformed.draw(light, view.culling, recorder),
         Style::Smooth => {

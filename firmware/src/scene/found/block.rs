@@ -71,6 +71,12 @@ impl BlockMemory {
     }
 }
 
+impl Default for BlockMemory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// Returns a part of a normal, Q2.14.
 fn q2_14(part: u8) -> i16 {
     i16::from(part as i8) * NORMAL_SCALE
