@@ -3,13 +3,27 @@
 use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
 
+use crate::demo::Played;
 use crate::paths::workspace_root;
-use crate::report::Report;
+use crate::picture::Picture;
+use crate::report::{Report, SceneReport};
 
 /// Where the demonstration's file lies in the workspace.
 pub const DEMO: &str = "host-tests/golden/demo.json";
 /// Where the five systems' file lies.
 pub const SEEDS: &str = "host-tests/golden/seeds.json";
+
+/// Folder of the five systems' pictures: the last frame of each part.
+pub const PICTURES: &str = "docs/seeds";
+
+/// Returns the last picture of each part and where it lies in the workspace.
+pub fn pictures(played: &Played) -> Vec<(String, &Picture)> {
+    let last = |scene: &SceneReport| {
+        let picture = played.pictures.iter().rfind(|(name, ..)| *name == scene.name);
+        picture.map(|(name, _, picture)| (format!("{PICTURES}/{name}.png"), picture))
+    };
+    played.report.scenes.iter().filter_map(last).collect()
+}
 
 /// Frame checksums of each scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

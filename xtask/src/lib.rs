@@ -18,6 +18,7 @@
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`prove`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`fill`] | what more pixel units bring; [`plot`] draws it |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -40,6 +41,7 @@ pub mod commands;
 pub mod console;
 pub mod demo;
 pub mod fake_pad;
+pub mod fill;
 pub mod firmware_build;
 pub mod generated;
 pub mod golden;
@@ -49,6 +51,7 @@ pub mod measure;
 pub mod model;
 pub mod paths;
 pub mod picture;
+pub mod plot;
 pub mod progress;
 pub mod prove;
 pub mod qemu;

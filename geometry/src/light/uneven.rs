@@ -65,6 +65,7 @@ impl UnevenLight {
 }
 
 /// Returns the matrix that turns the normals of an object with these axes, by rows.
+#[inline(never)]
 fn normals([a, b, c]: [[i128; 3]; 3]) -> [[i64; 3]; 3] {
     // Normals turn by the inverse's transpose: but for the determinant, the matrix of cofactors,
     // whose columns are the cross products of the model's other two. A mirror's determinant is
@@ -112,7 +113,7 @@ fn dot(a: [i32; 3], b: &[i32; 3]) -> i32 {
 
 /// Whether three axes are equally long and at right angles to one another, not mirrored.
 fn is_even(columns: &[[i128; 3]; 3]) -> bool {
-    let dot = |a: &[i128; 3], b: &[i128; 3]| -> i128 { a.iter().zip(b).map(|(a, b)| (a >> 2) * (b >> 2)).sum() };
+    let dot = |a: &[i128; 3], b: &[i128; 3]| -> i128 { a.iter().zip(b).map(|(a, b)| product(a >> 2, b >> 2)).sum() };
     let [a, b, c] = columns;
     let squares = [dot(a, a), dot(b, b), dot(c, c)];
     let allowed = squares.iter().sum::<i128>() >> EVEN_BITS;
@@ -123,17 +124,25 @@ fn is_even(columns: &[[i128; 3]; 3]) -> bool {
         && sign_of_dot(cross(*b, *c), *a) > 0
 }
 
+#[inline(never)]
 fn cross([ax, ay, az]: [i128; 3], [bx, by, bz]: [i128; 3]) -> [i128; 3] {
     // Elements have 64 bits; two bits less each keep the difference in 128.
-    let product = |a: i128, b: i128| (a >> 1) * (b >> 1);
+    let product = |a: i128, b: i128| product(a >> 1, b >> 1);
     [product(ay, bz) - product(az, by), product(az, bx) - product(ax, bz), product(ax, by) - product(ay, bx)]
 }
 
+/// A product in 128 bits: large, so that it is there once.
+#[inline(never)]
+fn product(a: i128, b: i128) -> i128 {
+    a * b
+}
+
 /// The sign of a dot product of a vector of products with one of elements.
+#[inline(never)]
 fn sign_of_dot(products: [i128; 3], elements: [i128; 3]) -> i32 {
     let largest = products.iter().map(|part| part.unsigned_abs()).max().unwrap_or(0);
     // 62 bits times 64, three of them.
     let shift = (u128::BITS - largest.leading_zeros()).saturating_sub(60);
-    let sum: i128 = products.iter().zip(elements).map(|(a, b)| (a >> shift) * b).sum();
+    let sum: i128 = products.iter().zip(elements).map(|(a, b)| product(a >> shift, b)).sum();
     sum.signum() as i32
 }

@@ -15,7 +15,8 @@ use crate::demo;
 use crate::firmware_build::build_firmware;
 use crate::golden::{self, Golden};
 use crate::machine::{Link, with_host};
-use crate::paths::TemporaryFolder;
+use crate::paths::{TemporaryFolder, workspace_root};
+use crate::picture::read_png;
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
 use crate::session;
 
@@ -58,6 +59,10 @@ pub(super) fn seeds(state: &mut State) -> anyhow::Result<()> {
     let (golden, parts) = (golden(golden::SEEDS)?, session::seeds()?);
     let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
     golden.check(&Golden::from(&here.report)).context("on this computer")?;
+    for (path, picture) in golden::pictures(&here) {
+        let committed = read_png(&workspace_root().join(&path))?;
+        ensure!(committed == *picture, "{path} shows something else: write it with `cargo xtask generate --golden`");
+    }
     let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("seeds"))?;
     let there = demo::play(&mut machine, &parts, &state.progress)?;
     machine.quit()?;

@@ -37,8 +37,8 @@ const MISTAKES: [Mistake; 5] = [
         noticed: "does not follow",
     },
     Mistake {
-        proof: 1,
-        file: "rtl/formal/traversal_proof.sv",
+        proof: 0,
+        file: "rtl/formal/command_fifo_proof.sv",
         right: "initial started_q = 1'b0;",
         wrong: "initial started_q = 1'b1;",
         noticed: "does not hold after power-on",
@@ -51,10 +51,10 @@ const MISTAKES: [Mistake; 5] = [
         noticed: "does not follow",
     },
     Mistake {
-        proof: 1,
-        file: "rtl/formal/traversal_proof.sv",
-        right: "assume (at_pixel[i] >= 0);",
-        wrong: "assume (at_pixel[i] > 0 && at_pixel[i] < 0);",
+        proof: 0,
+        file: "rtl/formal/command_fifo_proof.sv",
+        right: "if (!started_q) assume (!rst_ni);",
+        wrong: "assume (!rst_ni);",
         noticed: "too much is assumed",
     },
 ];

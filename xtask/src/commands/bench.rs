@@ -1,6 +1,8 @@
 //! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, and the FPGA's clocks.
 
 use std::env;
+use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, ensure};
@@ -8,6 +10,7 @@ use anyhow::{Context, ensure};
 use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
+use crate::fill;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
@@ -38,12 +41,21 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let verilated = Verilated::prepare(false, &progress)?;
     let step = progress.step("counting the FPGA's clocks");
     measurements.extend(verilated.bench()?);
+    let fills = fill::measure(&verilated)?;
+    measurements.extend(fill::measurements(&fills));
     step.done();
     measurements.extend(area::measurements()?);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
         print!("{}", table(&measurements));
+        println!("\nwhat more pixel units bring, on the last frame of each picture of the five systems:\n");
+        print!("{}", fill::table(&fills));
+    }
+    if let Some(path) = &arguments.plot {
+        fs::write(path, fill::plot(&fills).svg())
+            .with_context(|| format!("cannot write {}: check its folder", path.display()))?;
+        progress.step(format!("writing {}", path.display())).done();
     }
     Ok(())
 }
@@ -59,6 +71,7 @@ fn run_optimised(arguments: &BenchArguments) -> anyhow::Result<()> {
     let program = target_folder().join("measure/xtask");
     let mut optimised = Command::new(&program);
     optimised.arg("bench").args(arguments.json.then_some("--json"));
+    optimised.args(arguments.plot.iter().flat_map(|path| [Path::new("--plot"), path]));
     let status = optimised.status().with_context(|| format!("cannot start {}", program.display()))?;
     ensure!(status.success(), "the optimised build ended with {status}");
     Ok(())

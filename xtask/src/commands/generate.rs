@@ -1,10 +1,12 @@
 //! `cargo xtask generate`: writes the files that come from one source and are committed.
 
 use crate::cli::GenerateArguments;
-use crate::demo;
+use crate::demo::{self, Played};
 use crate::generated;
 use crate::golden::{self, Golden};
 use crate::machine::with_host;
+use crate::paths::workspace_root;
+use crate::picture::write_png;
 use crate::progress::Progress;
 use crate::session::{self, ScenePart};
 
@@ -32,13 +34,16 @@ pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
     anyhow::ensure!(stale.is_empty(), "{} stale: run `cargo xtask generate` and commit the result", stale.join(", "));
     if arguments.golden {
         write_golden(golden::DEMO, &session::demo()?)?;
-        write_golden(golden::SEEDS, &session::seeds()?)?;
+        let played = write_golden(golden::SEEDS, &session::seeds()?)?;
+        for (path, picture) in golden::pictures(&played) {
+            write_png(&workspace_root().join(path), picture)?;
+        }
     }
     Ok(())
 }
 
-/// Writes the checksums that a session's frames must have from now on.
-fn write_golden(path: &str, parts: &[ScenePart]) -> anyhow::Result<()> {
+/// Plays a session and writes the checksums that a session's frames must have from now on.
+fn write_golden(path: &str, parts: &[ScenePart]) -> anyhow::Result<Played> {
     let played = with_host(|machine| demo::play(machine, parts, &Progress::new()))?;
     let new = Golden::from(&played.report);
     match Golden::read(path) {
@@ -56,5 +61,5 @@ fn write_golden(path: &str, parts: &[ScenePart]) -> anyhow::Result<()> {
             );
         }
     }
-    Ok(())
+    Ok(played)
 }

@@ -92,12 +92,12 @@ pub fn text() -> String {
             ..Hand::default()
         }),
         // C: turned, moved and brought through the viewing plane, step by step.
-        part(Scene::Wireframe, None, 40, |frame| Hand {
+        part(Scene::Wireframe, None, 31, |frame| Hand {
             held: match frame {
                 0..=11 => vec![Button::Left],
                 12..=15 => vec![Button::Up],
-                16..=31 => vec![Button::R2],
-                32 => vec![Button::Circle],
+                16..=25 => vec![Button::R2],
+                26 => vec![Button::Circle],
                 _ => vec![Button::Down],
             },
             ..Hand::default()
