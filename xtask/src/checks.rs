@@ -1,11 +1,13 @@
 //! The steps of `cargo xtask test`: everything CI runs, the quick ones first.
 
 mod board;
+mod card;
 mod cargo;
 mod fpga;
 mod mesh;
 mod prove;
 mod rtl;
+mod uboot;
 mod usb;
 
 use std::collections::HashMap;
@@ -75,6 +77,8 @@ const CHECKS: &[Check] = &[
     Check { name: "the firmware for de1-soc builds", run: |state| build(state, Board::De1Soc) },
     Check { name: "the firmware for vexpress-a9 builds", run: |state| build(state, Board::VexpressA9) },
     Check { name: "the firmware for raspi2b builds", run: |state| build(state, Board::Raspi2b) },
+    Check { name: "other people's tools read the card image", run: card::card },
+    Check { name: "U-Boot follows the script of the card image", run: uboot::follows_the_script },
     Check { name: "QEMU is handled well", run: |_| cargo::qemu_tests() },
     Check {
         name: "the demonstration on vexpress-a9 equals the golden one and this computer's own",

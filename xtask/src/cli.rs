@@ -1,6 +1,8 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
 mod board;
+#[cfg(test)]
+mod tests;
 mod values;
 
 use std::fmt::Write as _;
@@ -18,8 +20,9 @@ pub use board::Board;
 pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
-const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
+const COMMAND_GROUPS: [(&str, &[&str]); 5] = [
     ("See it work", &["demo", "run", "pad"]),
+    ("Put it on a board", &["image"]),
     ("Draw a picture on this computer", &["render", "mesh", "replay", "decode"]),
     ("Check and measure", &["test", "bench", "prove", "area"]),
     ("Keep generated files fresh", &["generate"]),
@@ -65,10 +68,17 @@ pub enum Task {
     /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
     /// is over, until Ctrl-C.
     Pad(PadArguments),
+    /// Makes what goes on the DE1-SoC's SD card, and the whole card as a file
+    ///
+    /// Leaves in target/de1-soc: halfspace-sd.img, the card; card/, what to copy onto a card that
+    /// starts already; and their parts. The same input gives the same bytes. U-Boot is built from
+    /// Debian's source package, which takes a minute the first time. README §Flash goes on from there.
+    Image(ImageArguments),
     /// Draws a model to a PNG file
     ///
     /// Takes OBJ, STL, Babylon JSON (.babylon), binary glTF (.glb), 99-bit lines (.rom, .mem, .coe)
-    /// and .mesh; the file's name tells which. The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
+    /// and .mesh; the file's name tells which. The same geometry as on the board, and the FPGA's
+    /// software model: 320×240 pixels. Front
     /// faces go counter-clockwise. The view is from +z, fitted to the model, field of view 45°;
     /// the light comes from above on the left, in front. With --mvp the matrix is used as it is,
     /// and the light shines in the model's own space.
@@ -178,6 +188,20 @@ pub struct PadArguments {
     /// Session to play instead of the demo's
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
+}
+
+/// Flags of `image`.
+#[derive(Debug, Args)]
+pub struct ImageArguments {
+    /// FPGA image for the card: fpga/build/halfspace.rbf
+    #[arg(long, value_name = "FILE")]
+    pub rbf: Option<PathBuf>,
+    /// U-Boot with its preloader (u-boot-with-spl.sfp) instead of one that is built here
+    #[arg(long, value_name = "FILE")]
+    pub uboot: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Flags of `render`.
@@ -337,6 +361,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Test(arguments) => commands::test::run(arguments),
         Task::Run(arguments) => commands::run::run(arguments),
         Task::Pad(arguments) => commands::pad::run(arguments),
+        Task::Image(arguments) => commands::image::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
         Task::Mesh(arguments) => commands::mesh::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
@@ -368,98 +393,4 @@ fn grouped_commands(command: &Command) -> String {
         text.push('\n');
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parse(line: &str) -> Result<Cli, clap::Error> {
-        Cli::try_parse_from(std::iter::once("xtask").chain(line.split_whitespace()))
-    }
-
-    #[test]
-    fn clap_finds_no_fault_in_the_definition() {
-        command().debug_assert();
-    }
-
-    #[test]
-    fn help_lists_every_command_once_with_its_line() {
-        let help = command().render_help().to_string();
-        for subcommand in Cli::command().get_subcommands() {
-            let name = subcommand.get_name();
-            let about = subcommand.get_about().expect("every command says what it does").to_string();
-            let line = format!("  {name:<10}{about}\n");
-            assert_eq!(help.matches(&line).count(), 1, "{name} in:\n{help}");
-            assert!(line.len() <= 96, "{name}'s line wraps on a usual terminal");
-        }
-        assert!(help.contains("Usage: cargo xtask"), "{help}");
-    }
-
-    #[test]
-    fn render_takes_all_its_flags() {
-        let line = "render m.obj -o o.png --rotate -20,30.5,0 --two-sided --dump w --triangles t --depth d";
-        let Task::Render(arguments) = parse(line).expect("a valid line").command else {
-            panic!("render is render");
-        };
-        assert_eq!(arguments.rotate, Some(Rotation { degrees: [-20.0, 30.5, 0.0] }));
-        assert!(arguments.two_sided && arguments.mvp.is_none());
-        assert!(parse("render m.obj -o o.png --rotate 1,2,3 --mvp f").is_err());
-        assert!(parse("render m.obj").is_err());
-    }
-
-    #[test]
-    fn headless_wants_frames_and_a_folder() {
-        assert!(parse("run").is_ok());
-        assert!(parse("run --headless --frames 3 --output d").is_ok());
-        assert!(parse("run --headless").is_err());
-        assert!(parse("run --frames 3").is_err());
-        assert!(parse("run --headless --frames 0 --output d").is_err());
-    }
-
-    #[test]
-    fn a_wave_wants_the_design_and_a_number_of_units_one_that_there_is() {
-        let Task::Replay(arguments) = parse("replay w -o o.png --rtl --wave f --from 7").expect("valid").command else {
-            panic!("replay is replay");
-        };
-        assert_eq!((arguments.units, arguments.from, arguments.clocks), (8, 7, 20_000));
-        assert!(parse("replay w -o o.png").is_ok());
-        assert!(parse("replay w -o o.png --rtl --units 4 --pins --wave f --clocks 9").is_ok());
-        for wrong in
-            ["--wave f", "--units 8", "--pins", "--rtl --from 1", "--rtl --clocks 5", "--rtl --wave f --clocks 0"]
-        {
-            assert!(parse(&format!("replay w -o o.png {wrong}")).is_err(), "{wrong}");
-        }
-        let message = parse("replay w -o o.png --rtl --units 3").expect_err("no such build").to_string();
-        assert!(message.contains("1, 2, 4 or 8 pixel units"), "{message}");
-    }
-
-    #[test]
-    fn the_other_commands_parse() {
-        for line in [
-            "demo",
-            "demo --board vexpress-a9",
-            "demo --board raspi2b",
-            "run --board raspi2b --pad s",
-            "run --board raspi2b --usb-host 054c:0268",
-            "pad s --session f",
-            "demo --dump w",
-            "test",
-            "test --only usb",
-            "replay w -o o.png --depth d",
-            "decode w",
-            "run --model a.stl --board raspi2b",
-            "run --model a.mesh --headless --frames 3 --output d --style wireframe",
-            "mesh a.stl -o a.mesh --flat --scale-to-fit",
-            "mesh a.stl -o a.mesh --smooth --two-sided --clockwise",
-            "render a.glb -o a.png --style hidden-lines",
-            "bench --json",
-            "generate --check",
-            "generate --golden",
-        ] {
-            assert!(parse(line).is_ok(), "{line}");
-        }
-        assert!(parse("demo --board c64").is_err());
-        assert!(parse("mesh a.stl -o a.mesh --smooth --flat").is_err());
-    }
 }

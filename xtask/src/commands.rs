@@ -5,6 +5,7 @@ pub mod bench;
 pub mod decode;
 pub mod demo;
 pub mod generate;
+pub mod image;
 pub mod mesh;
 pub mod pad;
 pub mod prove;

@@ -19,6 +19,8 @@
 //! | [`prove`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
 //! | [`fill`] | what more pixel units bring; [`plot`] draws it |
+//! | [`card`] | what goes on the DE1-SoC's SD card |
+//! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -34,6 +36,7 @@ compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS 
 
 pub mod area;
 pub mod boot;
+pub mod card;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;
@@ -43,6 +46,7 @@ pub mod demo;
 pub mod fake_pad;
 pub mod fill;
 pub mod firmware_build;
+pub mod frame_model;
 pub mod generated;
 pub mod golden;
 pub mod log_decoder;

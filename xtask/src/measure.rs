@@ -47,6 +47,9 @@ pub struct Measurement {
     pub bar: Option<f64>,
     /// Which way is better.
     pub better: Better,
+    /// What else is to be said of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 /// Which way a number is better.
@@ -63,7 +66,7 @@ impl Measurement {
     /// Returns a figure without a bar, rounded to hundredths; less is better.
     pub fn new(name: &str, value: f64, unit: &str) -> Self {
         let value = (value * 100.0).round() / 100.0;
-        Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower }
+        Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower, note: None }
     }
 
     /// Returns in words whether it reaches its bar, if it has one.
@@ -108,6 +111,11 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
         },
         per("geometry.instructions_per_smooth_triangle", smooth.instructions_per_triangle),
         per("geometry.instructions_per_vertex", torus.instructions_per_vertex),
+        Measurement::new(
+            "geometry.drawn_share",
+            torus.triangles_drawn as f64 / torus.triangles_submitted.max(1) as f64,
+            "of the submitted",
+        ),
         per("geometry.instructions_per_large_triangle", plate.instructions_per_triangle),
         per("geometry.instructions_per_clipped_scene_triangle", tunnel.instructions_per_triangle),
     ])

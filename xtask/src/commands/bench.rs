@@ -11,6 +11,7 @@ use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
 use crate::fill;
+use crate::frame_model;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
@@ -44,7 +45,9 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let fills = fill::measure(&verilated)?;
     measurements.extend(fill::measurements(&fills));
     step.done();
+    let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
+    measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
@@ -87,7 +90,8 @@ fn table(measurements: &[Measurement]) -> Table {
     ]);
     for it in measurements {
         let bar = it.bar.map(|bar| format!("{bar}")).unwrap_or_default();
-        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, it.verdict().unwrap_or_default()]);
+        let remark = it.verdict().or(it.note.as_deref()).unwrap_or_default();
+        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, remark]);
     }
     table
 }

@@ -72,7 +72,7 @@ pub fn text() -> String {
         // A: the plate with the matrices of 2014, tilted, then frozen.
         part(Scene::Plate, None, 12, |frame| Hand {
             roll: 4.0 * f64::from(frame.min(8)),
-            pitch: -6.0 * f64::from(frame),
+            pitch: 6.0 * f64::from(frame),
             held: [taps(frame, &[(0, Button::Circle)]), if frame >= 9 { vec![Button::Cross] } else { vec![] }].concat(),
             ..Hand::default()
         }),
@@ -89,7 +89,6 @@ pub fn text() -> String {
             roll: 12.0 * part_of(frame, 24),
             right: [0.0, 1.0],
             left: [0.3, 0.0],
-            ..Hand::default()
         }),
         // C: turned, moved and brought through the viewing plane, step by step.
         part(Scene::Wireframe, None, 31, |frame| Hand {
@@ -136,6 +135,6 @@ mod tests {
             Tilt::from_acceleration(DualShock3Report::parse(&report).expect("a good report").acceleration)
         };
         let near = |found: fixed::types::I16F16, expected: f64| (found.to_num::<f64>() - expected).abs() < 2.0;
-        assert!(near(tilt(8).roll, 32.0) && near(tilt(8).pitch, -48.0), "{:?}", tilt(8));
+        assert!(near(tilt(8).roll, 32.0) && near(tilt(8).pitch, 48.0), "{:?}", tilt(8));
     }
 }
