@@ -16,8 +16,8 @@
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
-//! | [`prove`] | theorems about the FPGA's design, proven |
-//! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
+//! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
 //! | [`fill`] | what more pixel units bring; [`plot`] draws it |
 //! | [`card`] | what goes on the DE1-SoC's SD card |
 //! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
@@ -40,6 +40,7 @@ pub mod card;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;
+pub mod code_size;
 pub mod commands;
 pub mod console;
 pub mod demo;
@@ -68,6 +69,7 @@ pub mod software_fpga;
 pub mod stream;
 pub mod table;
 pub mod verilated;
+pub mod yosys;
 
 #[cfg(test)]
 mod test_elf;
