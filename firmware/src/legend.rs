@@ -49,5 +49,6 @@ fn about(scene: Scene) -> &'static str {
         Scene::Polygons => {
             "polygons of 5, 6 and 12 corners cut through one another; Tab: depth as grey, or their colours"
         }
+        Scene::Model => "the mesh file that was found in memory, or a knot",
     }
 }

@@ -2,11 +2,13 @@
 //!
 //! | module | what it holds |
 //! | --- | --- |
+//! | [`found`] | the model of a mesh file |
 //! | [`meshes`] | the shapes that scenes put together |
 //! | [`stage`] | one frame of a scene: objects, camera, light |
 //!
 //! What a scene does from frame to frame stands in [`act`](crate::act).
 
+pub mod found;
 pub mod meshes;
 mod plate;
 pub mod stage;
@@ -28,12 +30,14 @@ pub enum Scene {
     Wireframe,
     /// Convex polygons of many corners that cut through one another.
     Polygons,
+    /// The model of a mesh file: the one that was found in memory, or the one that is built in.
+    Model,
 }
 
 impl Scene {
     /// All scenes, in the order in which Start goes through them.
     pub const ALL: &'static [Scene] =
-        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons];
+        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons, Scene::Model];
 
     /// Returns the scene's name.
     pub fn name(self) -> &'static str {
@@ -44,6 +48,7 @@ impl Scene {
             Scene::Solids => "solids",
             Scene::Wireframe => "wireframe",
             Scene::Polygons => "polygons",
+            Scene::Model => "model",
         }
     }
 
@@ -51,7 +56,7 @@ impl Scene {
     pub fn style(self) -> Style {
         match self {
             Scene::Plate | Scene::Torus | Scene::Tunnel => Style::Flat,
-            Scene::Solids => Style::Smooth,
+            Scene::Solids | Scene::Model => Style::Smooth,
             Scene::Wireframe => Style::Wire,
             Scene::Polygons => Style::DepthGrey,
         }
@@ -59,7 +64,7 @@ impl Scene {
 
     /// Returns the scene of a number, the last one if it is too large.
     pub fn from_index(index: usize) -> Self {
-        Self::ALL.get(index).copied().unwrap_or(Scene::Polygons)
+        Self::ALL.get(index).copied().unwrap_or(Scene::Model)
     }
 
     /// Returns the scene's number.

@@ -26,7 +26,6 @@
 //! | [`model`] | a model from a file as a mesh |
 //! | [`log_decoder`] | turns the firmware's defmt bytes into text |
 //! | [`picture`] | RGB pictures, PNG, animated PNG and depth files |
-//! | [`obj`] | reads Wavefront OBJ models |
 //! | [`progress`], [`table`] | what is said while working, and what is shown at the end |
 //! | [`paths`] | where the workspace is and where results go |
 
@@ -55,7 +54,6 @@ pub mod log_decoder;
 pub mod machine;
 pub mod measure;
 pub mod model;
-pub mod obj;
 pub mod paths;
 pub mod picture;
 pub mod plot;

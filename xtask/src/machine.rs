@@ -12,7 +12,7 @@ use firmware::style::Style;
 use crate::picture::Picture;
 
 pub use emulated::Emulated;
-pub use host::{with_host, with_recording_host};
+pub use host::{with_host, with_host_and_mesh, with_recording_host};
 
 /// A board's end of the link, and its screen.
 pub trait Machine {

@@ -1,11 +1,13 @@
 //! `cargo xtask run`: the firmware live, in a window or headless.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, ensure};
+use anyhow::{Context, anyhow, ensure};
 use firmware::scene::Scene;
+use models::Kind;
+use models::compile::{Options, compile};
 
 use crate::boot::{Bootable, check_runs, start_with_log};
 use crate::cli::{Board, RunArguments};
@@ -13,7 +15,7 @@ use crate::machine::{Emulated, Link};
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
-use crate::qemu::{QemuOptions, UsbDevice};
+use crate::qemu::{ICOUNT_SHIFT, QemuOptions, UsbDevice};
 use crate::session::{self, ScenePart};
 use crate::setup::ensure_qemu_window;
 
@@ -40,7 +42,12 @@ fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Resu
     let parts = parts(arguments)?;
     fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
     let bootable = Bootable::prepare(arguments.board, &progress)?;
-    let mut machine = bootable.start(&target_folder().join("run"))?;
+    let folder = target_folder().join("run");
+    let mesh = mesh_file(arguments, &folder)?;
+    let mut machine = bootable.start_with(&folder, |options| {
+        options.icount_shift = Some(ICOUNT_SHIFT);
+        options.mesh = mesh;
+    })?;
     let step = progress.step(format!("drawing {count} frames"));
     let mut drawn = 0;
     let mut link = Link::new(&mut machine);
@@ -62,14 +69,31 @@ fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Resu
 /// Returns what is played: the demonstration's session or, of a scene or in a style that is named, the pictures of the
 /// five systems; a scene that has none there holds still.
 fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
-    if arguments.scene.is_none() && arguments.style.is_none() {
+    if arguments.scene.is_none() && arguments.style.is_none() && arguments.model.is_none() {
         return session::demo();
     }
-    let scene = arguments.scene.unwrap_or(Scene::ALL[0]);
+    let first = if arguments.model.is_some() { Scene::Model } else { Scene::ALL[0] };
+    let scene = arguments.scene.unwrap_or(first);
     let known = [session::seeds()?, session::demo()?].concat();
     let named = known.into_iter().find(|part| part.scene == scene);
     let part = named.unwrap_or(ScenePart { scene, style: None, frames: vec![None] });
     Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
+}
+
+/// Returns the model that is named as a `.mesh` file, in `folder` unless it is one already.
+fn mesh_file(arguments: &RunArguments, folder: &Path) -> anyhow::Result<Option<PathBuf>> {
+    let Some(path) = &arguments.model else { return Ok(None) };
+    // Its text names the cause already, which the chain of errors would say again.
+    let model = models::read(path).map_err(|error| anyhow!("{error}"))?;
+    if Kind::of_name(path) == Some(Kind::Mesh) {
+        return Ok(Some(path.clone()));
+    }
+    model.notes.iter().for_each(|note| println!("note: {note}"));
+    let compiled = compile(&model, &Options::default()).with_context(|| format!("cannot use {}", path.display()))?;
+    let file = folder.join("model.mesh");
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    fs::write(&file, compiled.bytes).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(Some(file))
 }
 
 /// Returns a session that is repeated and cut to `count` frames.
@@ -118,6 +142,7 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let mut options = QemuOptions::new(qemu, bootable.board, &bootable.elf);
     options.display = display;
     options.usb = plugged_in(arguments)?;
+    options.mesh = mesh_file(arguments, &folder)?;
     options.console_file = Some(folder.join("console.txt"));
     options.console_on_stdout = true;
     let (mut qemu, log) = start_with_log(&options, &folder)?;
