@@ -148,6 +148,7 @@ impl Controls {
             right_stick: stick(|pad| pad.right_stick)
                 .merged(self.keyboard.right_stick())
                 .merged(self.panel.right_stick()),
+            arrows: self.keyboard.arrows().merged(self.panel.arrows()),
             held: self.edges.held,
             pressed: self.edges.pressed,
             released: self.edges.released,

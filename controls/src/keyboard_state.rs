@@ -71,6 +71,15 @@ impl KeyboardState {
         }
     }
 
+    /// Returns where the arrow keys point.
+    pub(crate) fn arrows(&self) -> Stick {
+        let pushed = self.pushed();
+        Stick {
+            x: pushed.deflection(KeyAxis::RollRight, KeyAxis::RollLeft),
+            y: pushed.deflection(KeyAxis::PitchUp, KeyAxis::PitchDown),
+        }
+    }
+
     /// Returns which way the arrows turn roll and pitch: −1, 0 or 1 each.
     pub(crate) fn turning(&self) -> [i32; 2] {
         let pushed = self.pushed();

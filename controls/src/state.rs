@@ -17,6 +17,8 @@ pub struct ControllerState {
     pub left_stick: Stick,
     /// The right stick.
     pub right_stick: Stick,
+    /// The way that the arrow keys point, 0 or ±1 in each axis; what they do to the tilt is in `tilt` already.
+    pub arrows: Stick,
     /// The buttons that are down now.
     pub held: Buttons,
     /// The buttons that went down in this frame, even if they are up again.

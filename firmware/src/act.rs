@@ -8,8 +8,11 @@
 //! | [`solids`] | several objects under a coloured light; a camera that orbits or flies |
 //! | [`wireframe`] | lines, turned and moved by steps |
 //! | [`polygons`] | polygons that cut through one another |
+//! | [`balancer`] | the game |
 //! | [`pose`] | what sticks and keys move in these |
 //! | [`switch`] | which of its two modes a scene is in |
+
+use core::fmt::{self, Write};
 
 use controls::ControllerState;
 
@@ -17,6 +20,7 @@ use crate::scene::Scene;
 use crate::scene::stage::Stage;
 use crate::style::Manner;
 
+pub mod balancer;
 pub mod columbia;
 pub mod exhibit;
 pub mod plate;
@@ -27,6 +31,7 @@ pub mod switch;
 pub mod tunnel;
 pub mod wireframe;
 
+use balancer::Balancer;
 use exhibit::Exhibit;
 use plate::Plate;
 use polygons::Polygons;
@@ -45,6 +50,19 @@ pub trait Perform {
     /// Returns which of its two modes the scene is in, if it has two.
     fn mode(&self) -> Option<&'static str> {
         None
+    }
+
+    /// Returns the points of the game, in the scene that is one.
+    fn score(&self) -> Option<u32> {
+        None
+    }
+
+    /// Tells a person what has happened since it was called last, if the scene has anything to tell.
+    ///
+    /// # Errors
+    /// The console's.
+    fn tell(&mut self, _console: &mut dyn Write) -> fmt::Result {
+        Ok(())
     }
 
     /// Returns what there is to draw, in this manner.
@@ -68,6 +86,8 @@ pub enum Act {
     Polygons(Polygons),
     /// The model of a mesh file.
     Model(Exhibit),
+    /// The game.
+    Game(Balancer),
 }
 
 impl Act {
@@ -81,6 +101,7 @@ impl Act {
             Scene::Wireframe => Self::Wireframe(Wireframe::START),
             Scene::Polygons => Self::Polygons(Polygons::START),
             Scene::Model => Self::Model(Exhibit::FOUND),
+            Scene::Game => Self::Game(Balancer::new()),
         }
     }
 
@@ -93,6 +114,7 @@ impl Act {
             Self::Solids(solids) => solids,
             Self::Wireframe(wireframe) => wireframe,
             Self::Polygons(polygons) => polygons,
+            Self::Game(balancer) => balancer,
         }
     }
 }

@@ -118,11 +118,16 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         self.viewer.update(&state);
         self.intake.end_frame();
         self.tell_changes(before, state.pressed.contains(Button::Ps));
+        let Self { board, viewer, .. } = self;
+        // A console that takes nothing leaves nobody to tell.
+        let _ = viewer.tell(board.console());
+        let score = viewer.score();
+        board.show_score(score);
         let stage = self.viewer.stage(&state);
         let Self { board, renderer, meshes, frame_memory, .. } = self;
         let report = draw_frame(meshes, &stage, frame_memory, renderer, || board.ticks())?;
         let checksum = if self.stepping { self.board.picture_checksum(self.renderer.port()) } else { None };
-        let report = FrameReport { index: self.frame, checksum, ..report };
+        let report = FrameReport { index: self.frame, score, checksum, ..report };
         self.frame = self.frame.wrapping_add(1);
         self.board.heartbeat(self.frame);
         let now = self.board.ticks();

@@ -50,6 +50,10 @@ pub trait Board {
     /// Shows a sign of life; called once a frame.
     fn heartbeat(&mut self, frame: u32);
 
+    /// Shows the points of the game, where the board has digits for them; `None` while no game is played. Called
+    /// once a frame.
+    fn show_score(&mut self, _score: Option<u32>) {}
+
     /// Shows that something went wrong; the console says what.
     fn show_fault(&mut self) {}
 

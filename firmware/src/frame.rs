@@ -112,6 +112,7 @@ pub fn draw_frame<P: Port, W: Wait>(
         words: (renderer.words_pushed() - words_before) as u32,
         vertex_ticks: cost.vertex_ticks as u32,
         face_ticks: cost.face_ticks as u32,
+        score: None,
         checksum: None,
     })
 }

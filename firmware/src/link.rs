@@ -119,6 +119,8 @@ pub struct FrameReport {
     pub vertex_ticks: u32,
     /// Time for clipping, culling, lighting, set-up and packet words, in ticks.
     pub face_ticks: u32,
+    /// Points, where the scene is a game.
+    pub score: Option<u32>,
     /// CRC-32 of the picture that shows, RGB332, row 0 first; `None` where the processor cannot
     /// see the framebuffer.
     pub checksum: Option<u32>,

@@ -32,12 +32,22 @@ pub enum Scene {
     Polygons,
     /// The model of a mesh file: the one that was found in memory, or the one that is built in.
     Model,
+    /// The Ultimate Ball Balancer: a ball on the plate, targets, a clock.
+    Game,
 }
 
 impl Scene {
     /// All scenes, in the order in which Start goes through them.
-    pub const ALL: &'static [Scene] =
-        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons, Scene::Model];
+    pub const ALL: &'static [Scene] = &[
+        Scene::Plate,
+        Scene::Torus,
+        Scene::Tunnel,
+        Scene::Solids,
+        Scene::Wireframe,
+        Scene::Polygons,
+        Scene::Model,
+        Scene::Game,
+    ];
 
     /// Returns the scene's name.
     pub fn name(self) -> &'static str {
@@ -49,13 +59,14 @@ impl Scene {
             Scene::Wireframe => "wireframe",
             Scene::Polygons => "polygons",
             Scene::Model => "model",
+            Scene::Game => "game",
         }
     }
 
     /// Returns the style that the scene begins in.
     pub fn style(self) -> Style {
         match self {
-            Scene::Plate | Scene::Torus | Scene::Tunnel => Style::Flat,
+            Scene::Plate | Scene::Torus | Scene::Tunnel | Scene::Game => Style::Flat,
             Scene::Solids | Scene::Model => Style::Smooth,
             Scene::Wireframe => Style::Wire,
             Scene::Polygons => Style::DepthGrey,
@@ -64,7 +75,7 @@ impl Scene {
 
     /// Returns the scene of a number, the last one if it is too large.
     pub fn from_index(index: usize) -> Self {
-        Self::ALL.get(index).copied().unwrap_or(Scene::Model)
+        Self::ALL.get(index).copied().unwrap_or(Scene::Game)
     }
 
     /// Returns the scene's number.

@@ -1,5 +1,7 @@
 //! Which scene is shown, and how: from what the controllers say to a stage.
 
+use core::fmt::{self, Write};
+
 use controls::{Button, ControllerState};
 
 use crate::act::Act;
@@ -40,6 +42,19 @@ impl Viewer {
     /// Returns which of its two modes the scene is in, if it has two.
     pub fn mode(&mut self) -> Option<&'static str> {
         self.act.perform().mode()
+    }
+
+    /// Returns the points of the game, in the scene that is one.
+    pub fn score(&mut self) -> Option<u32> {
+        self.act.perform().score()
+    }
+
+    /// Tells a person what has happened in the scene.
+    ///
+    /// # Errors
+    /// The console's.
+    pub fn tell(&mut self, console: &mut dyn Write) -> fmt::Result {
+        self.act.perform().tell(console)
     }
 
     /// Takes in a frame's controls. Start and Select change the scene, which begins in its own style; Triangle

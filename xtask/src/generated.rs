@@ -3,6 +3,7 @@
 //! sessions.
 
 mod board_package;
+mod game;
 mod plate;
 mod reference_page;
 mod rtl_package;
@@ -55,6 +56,7 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "docs/usb-rules.md", text: usb_rules::text() },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
         GeneratedFile { path: crate::session::SEEDS, text: seeds::text() },
+        GeneratedFile { path: crate::session::GAME, text: game::text() },
     ])
 }
 

@@ -12,6 +12,7 @@
 //! | [`session`] | what a controller said, frame by frame, and playing it on a machine |
 //! | [`fake_pad`] | a DualShock 3 for QEMU that says what it is told to |
 //! | [`demo`] | the demonstration session on a machine; [`report`] what it took, [`golden`] what it must show |
+//! | [`recorded_game`] | the recorded game, replayed |
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
@@ -61,6 +62,7 @@ pub mod progress;
 pub mod prove;
 pub mod qemu;
 pub mod qmp;
+pub mod recorded_game;
 pub mod render;
 pub mod report;
 pub mod session;

@@ -20,6 +20,9 @@ pub const DEMO: &str = "assets/demo.session";
 /// Where the session of the five systems lies in the workspace.
 pub const SEEDS: &str = "assets/seeds.session";
 
+/// Where the recorded game lies in the workspace.
+pub const GAME: &str = "assets/game.session";
+
 /// A frame's report, if the controller sent one.
 pub type ReportBytes = Option<[u8; DualShock3Report::LENGTH]>;
 
@@ -77,6 +80,14 @@ pub fn demo() -> anyhow::Result<Vec<ScenePart>> {
 /// As [`read`].
 pub fn seeds() -> anyhow::Result<Vec<ScenePart>> {
     read(&crate::paths::workspace_root().join(SEEDS)).context("write it again with `cargo xtask generate`")
+}
+
+/// Reads the recorded game.
+///
+/// # Errors
+/// As [`read`].
+pub fn game() -> anyhow::Result<Vec<ScenePart>> {
+    read(&crate::paths::workspace_root().join(GAME)).context("write it again with `cargo xtask generate`")
 }
 
 /// Parses a session's text.

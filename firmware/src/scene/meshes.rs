@@ -1,5 +1,6 @@
 //! The meshes that scenes put together.
 
+mod balancer;
 mod house;
 mod memory;
 mod solids;
@@ -53,11 +54,41 @@ pub enum Shape {
     Disc,
     /// A house of polygons and lines.
     House,
+    /// The game's plate: chequered, its rim below.
+    Board,
+    /// The game's ball, of radius 1, striped.
+    Ball,
+    /// A flat ring of radius 1, lying.
+    Hoop,
+    /// A bright disc of radius 1, lying.
+    Spot,
+    /// A dark one.
+    Shadow,
+    /// The digit 0, standing, two high and a little wider than one.
+    Zero,
+    /// The digit 1, standing, two high and a little wider than one.
+    One,
+    /// The digit 2, standing, two high and a little wider than one.
+    Two,
+    /// The digit 3, standing, two high and a little wider than one.
+    Three,
+    /// The digit 4, standing, two high and a little wider than one.
+    Four,
+    /// The digit 5, standing, two high and a little wider than one.
+    Five,
+    /// The digit 6, standing, two high and a little wider than one.
+    Six,
+    /// The digit 7, standing, two high and a little wider than one.
+    Seven,
+    /// The digit 8, standing, two high and a little wider than one.
+    Eight,
+    /// The digit 9, standing, two high and a little wider than one.
+    Nine,
 }
 
 impl Shape {
     /// All shapes.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 25] = [
         Self::Plate,
         Self::Torus,
         Self::Ring,
@@ -68,6 +99,35 @@ impl Shape {
         Self::Prism,
         Self::Disc,
         Self::House,
+        Self::Board,
+        Self::Ball,
+        Self::Hoop,
+        Self::Spot,
+        Self::Shadow,
+        Self::Zero,
+        Self::One,
+        Self::Two,
+        Self::Three,
+        Self::Four,
+        Self::Five,
+        Self::Six,
+        Self::Seven,
+        Self::Eight,
+        Self::Nine,
+    ];
+
+    /// The digits from 0 to 9.
+    pub const DIGITS: [Self; 10] = [
+        Self::Zero,
+        Self::One,
+        Self::Two,
+        Self::Three,
+        Self::Four,
+        Self::Five,
+        Self::Six,
+        Self::Seven,
+        Self::Eight,
+        Self::Nine,
     ];
 }
 
@@ -94,6 +154,7 @@ pub struct MeshMemory {
     prism: MadeMemory<12, 20, 18>,
     disc: MadeMemory<24, 44, 36>,
     house: MadeMemory<38, 26, 43>,
+    balancer: balancer::Memory,
     counts: [u16; MAX_VERTICES],
 }
 
@@ -111,6 +172,7 @@ impl MeshMemory {
             prism: MadeMemory::new(),
             disc: MadeMemory::new(),
             house: MadeMemory::new(),
+            balancer: balancer::Memory::new(),
             counts: [0; MAX_VERTICES],
         }
     }
@@ -125,8 +187,9 @@ impl Default for MeshMemory {
 /// All meshes.
 #[derive(Debug, Clone, Copy)]
 pub struct Meshes<'a> {
-    /// In the order of [`Shape::ALL`].
-    models: [Model<'a>; Shape::ALL.len()],
+    /// In the order of [`Shape::ALL`], whose last ones are the game's.
+    models: [Model<'a>; Shape::ALL.len() - balancer::COUNT],
+    balancer: [Model<'a>; balancer::COUNT],
     /// The model of a mesh file.
     found: Option<Found<'a>>,
 }
@@ -176,6 +239,7 @@ impl<'a> Meshes<'a> {
                 )?,
                 memory.house.solid(Corners::Shared, house::house, None, counts)?,
             ],
+            balancer: memory.balancer.models(counts)?,
             // Made by `cargo xtask mesh`; a test reads it.
             found: Found::new(found::BUILT_IN).ok(),
         })
@@ -193,7 +257,8 @@ impl<'a> Meshes<'a> {
 
     /// Returns the mesh of a shape.
     pub fn of(&self, shape: Shape) -> &Model<'a> {
-        &self.models[shape as usize]
+        let index = shape as usize;
+        self.models.get(index).unwrap_or_else(|| &self.balancer[index - self.models.len()])
     }
 }
 

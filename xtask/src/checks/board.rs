@@ -17,6 +17,7 @@ use crate::golden::{self, Golden};
 use crate::machine::{Link, with_host};
 use crate::paths::{TemporaryFolder, workspace_root};
 use crate::picture::read_png;
+use crate::recorded_game::{self, Record};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
 use crate::session;
 
@@ -67,6 +68,20 @@ pub(super) fn seeds(state: &mut State) -> anyhow::Result<()> {
     let there = demo::play(&mut machine, &parts, &state.progress)?;
     machine.quit()?;
     golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")
+}
+
+/// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's Cortex-A9, in this
+/// process and in the golden file.
+pub(super) fn game(state: &mut State) -> anyhow::Result<()> {
+    let (golden, parts) = (Record::read()?, session::game()?);
+    let here = Record::of(&parts)?;
+    golden.check(&here).context("on this computer")?;
+    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("game"))?;
+    let there = recorded_game::play(&mut machine, &parts)?;
+    machine.quit()?;
+    there.check_against(&golden).context("on QEMU's Cortex-A9, but not on this computer")?;
+    println!("score {} in the whole round, {} after {} frames in QEMU", here.score(), there.score(), there.frames);
+    Ok(())
 }
 
 fn golden(file: &str) -> anyhow::Result<Golden> {

@@ -70,8 +70,8 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
 fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
     match arguments.scene {
         Some(scene) => {
-            let both = [session::seeds()?, session::demo()?].concat();
-            Ok(both.into_iter().filter(|part| part.scene == scene).collect())
+            let all = [session::seeds()?, session::demo()?, session::game()?].concat();
+            Ok(all.into_iter().filter(|part| part.scene == scene).collect())
         }
         None if arguments.seeds => session::seeds(),
         None => session::demo(),
@@ -103,7 +103,11 @@ fn golden_line(report: &Report) -> anyhow::Result<String> {
         golden.scenes.extend(more.scenes);
     }
     let run = Golden::from(report);
-    Ok(match golden.played_in(&run).check(&run) {
+    let golden = golden.played_in(&run);
+    if golden.scenes.is_empty() {
+        return Ok("no golden run has these scenes frame by frame".to_string());
+    }
+    Ok(match golden.check(&run) {
         Ok(()) => "every frame is equal to the golden run".to_string(),
         Err(difference) => format!("WARNING: the frames differ from the golden run: {difference}"),
     })

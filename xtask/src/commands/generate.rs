@@ -8,6 +8,7 @@ use crate::machine::with_host;
 use crate::paths::workspace_root;
 use crate::picture::write_png;
 use crate::progress::Progress;
+use crate::recorded_game::{self, Record};
 use crate::session::{self, ScenePart};
 
 /// Writes the generated files, or with `--check` only says which are stale.
@@ -38,6 +39,9 @@ pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
         for (path, picture) in golden::pictures(&played) {
             write_png(&workspace_root().join(path), picture)?;
         }
+        let record = Record::of(&session::game()?)?;
+        record.write()?;
+        println!("written {}: score {}", recorded_game::GOLDEN, record.score());
     }
     Ok(())
 }

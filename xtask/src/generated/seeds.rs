@@ -24,18 +24,19 @@ const GRAVITY: f64 = 113.0;
 
 /// A pad in a frame.
 #[derive(Default)]
-struct Hand {
+pub(super) struct Hand {
     /// In degrees.
-    roll: f64,
-    pitch: f64,
-    held: Vec<Button>,
+    pub(super) roll: f64,
+    pub(super) pitch: f64,
+    pub(super) held: Vec<Button>,
     /// Sticks, −1 to 1, right and up positive.
-    left: [f64; 2],
-    right: [f64; 2],
+    pub(super) left: [f64; 2],
+    pub(super) right: [f64; 2],
 }
 
 impl Hand {
-    fn report(self) -> [u8; DualShock3Report::LENGTH] {
+    /// Returns what the pad says.
+    pub(super) fn report(self) -> [u8; DualShock3Report::LENGTH] {
         // Of f64's functions only sums, products and square roots give the same everywhere: so sines come from
         // whole degrees by Bhaskara's formula, which is near enough for a hand.
         let sine = |degrees: f64| {
