@@ -1,7 +1,9 @@
-//! Something that runs the application and can be stepped frame by frame: QEMU, or this process.
+//! Something that runs the application and can be stepped frame by frame: QEMU, the DE1-SoC's simulator,
+//! or this process.
 
 mod emulated;
 mod host;
+mod simulated;
 
 use anyhow::bail;
 use controls::serial::{self, Decoder, FRAME_SIZE_MAXIMUM, kind};
@@ -11,6 +13,7 @@ use crate::picture::Picture;
 
 pub use emulated::Emulated;
 pub use host::{with_host, with_recording_host};
+pub use simulated::Simulated;
 
 /// A board's end of the link, and its screen.
 pub trait Machine {
