@@ -28,7 +28,7 @@ impl Default for Config {
             low_pass: LowPass::Quarter,
             tilt_dead_zone_counts: 4,
             stick_response: StickResponse::Progressive,
-            key_tilt_degrees_per_frame: I16F16::lit("1.5"),
+            key_tilt_degrees_per_frame: const { I16F16::lit("1.5") },
         }
     }
 }

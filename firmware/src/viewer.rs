@@ -133,18 +133,30 @@ impl Viewer {
         let (model, view, projection) = match self.scene {
             Scene::Plate => {
                 let model = pitch.times(&roll).times(&Matrix::rotation_y(self.spin));
-                (model, self.orbit(I16F16::lit("3.4"), I16F16::lit("30")), self.lens(I16F16::lit("3.4")))
+                (
+                    model,
+                    self.orbit(const { I16F16::lit("3.4") }, const { I16F16::lit("30") }),
+                    self.lens(const { I16F16::lit("3.4") }),
+                )
             }
             Scene::Torus => {
                 let turning = Matrix::rotation_y(self.spin.plus(self.travel));
                 let model = pitch.times(&roll).times(&turning);
-                (model, self.orbit(I16F16::lit("4"), I16F16::lit("38")), self.lens(I16F16::lit("4")))
+                (
+                    model,
+                    self.orbit(const { I16F16::lit("4") }, const { I16F16::lit("38") }),
+                    self.lens(const { I16F16::lit("4") }),
+                )
             }
             Scene::Tunnel => {
                 let view = Matrix::rotation_z(Angle::from_degrees(state.tilt.roll).negated());
                 let view = view.times(&Matrix::rotation_x(Angle::from_degrees(state.tilt.pitch).negated()));
                 let view = view.times(&Matrix::rotation_y(self.spin)).times(&self.ride());
-                (Matrix::IDENTITY, view, perspective("75", I32F32::from_num(0.1), I32F32::from_num(4)))
+                (
+                    Matrix::IDENTITY,
+                    view,
+                    perspective(const { I16F16::lit("75") }, I32F32::from_num(0.1), I32F32::from_num(4)),
+                )
             }
         };
         View {
@@ -174,7 +186,7 @@ impl Viewer {
             _ => (I32F32::ONE, I32F32::from_num(10)),
         };
         match self.projection {
-            Projection::Perspective => perspective("45", near, far),
+            Projection::Perspective => perspective(const { I16F16::lit("45") }, near, far),
             Projection::Orthographic => {
                 // As large as in perspective, at the orbit's middle: tan 22.5° is 0.4142.
                 let half = distance * I32F32::from_num(0.4142);
@@ -195,8 +207,8 @@ impl Viewer {
 }
 
 /// OpenGL's perspective for the 4:3 screen; the parameters are in degrees and world units.
-fn perspective(field_of_view: &str, near: I32F32, far: I32F32) -> Matrix {
-    let angle = Angle::from_degrees(I16F16::from_str(field_of_view).unwrap_or(I16F16::ONE));
+fn perspective(field_of_view: I16F16, near: I32F32, far: I32F32) -> Matrix {
+    let angle = Angle::from_degrees(field_of_view);
     Matrix::perspective(angle, I32F32::from_num(4) / 3, near, far)
 }
 
@@ -210,16 +222,21 @@ fn light(scene: Scene, view: &Matrix) -> DirectionalLight {
     match scene {
         Scene::Plate | Scene::Torus => DirectionalLight {
             // A unit vector.
-            direction: [I2F30::lit("-0.36"), I2F30::lit("0.8"), I2F30::lit("0.48")],
+            direction: [const { I2F30::lit("-0.36") }, const { I2F30::lit("0.8") }, const { I2F30::lit("0.48") }],
             colour: [255; 3],
-            diffuse: I16F16::lit("0.75"),
-            ambient: I16F16::lit("0.25"),
+            diffuse: const { I16F16::lit("0.75") },
+            ambient: const { I16F16::lit("0.25") },
         },
         Scene::Tunnel => {
             // The view's third row: backwards, in world space.
             let [x, y, z, _] = view.rows[2];
             let direction = [x, y, z].map(I2F30::saturating_from_num);
-            DirectionalLight { direction, colour: [255; 3], diffuse: I16F16::lit("0.7"), ambient: I16F16::lit("0.4") }
+            DirectionalLight {
+                direction,
+                colour: [255; 3],
+                diffuse: const { I16F16::lit("0.7") },
+                ambient: const { I16F16::lit("0.4") },
+            }
         }
     }
 }

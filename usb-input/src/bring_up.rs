@@ -1,7 +1,6 @@
 //! From a device's reset to the moment when it can be served.
 
 use embassy_usb_driver::Speed;
-use heapless::String;
 
 use crate::descriptor::{self, Configuration, Device, HidInterface, STRING_BYTES};
 use crate::hid::{Form, Layout};
@@ -11,9 +10,9 @@ use crate::link::{Link, Next};
 use crate::mailbox::{Outcome, TransferError};
 use crate::reader::Reader;
 use crate::setup::{Setup, descriptor as kind};
-use crate::talk::Function;
-use crate::timing::{ADDRESS_RECOVERY_US, READY_TIMEOUT_US, RESET_RECOVERY_US};
-use crate::{Fault, Identity, Kind, Memory, Step, TEXT_BYTES, dualshock3, dualshock4};
+use crate::talk::Role;
+use crate::timing::{Moment, Wait};
+use crate::{Fault, Identity, Kind, Memory, Step, Text, dualshock3, dualshock4};
 
 const CLASS_HUB: u8 = 9;
 
@@ -21,11 +20,11 @@ const CLASS_HUB: u8 = 9;
 #[derive(Debug)]
 pub(crate) struct BringUp {
     stage: Stage,
-    deadline_us: u64,
+    /// When it has taken too long.
+    pub(crate) deadline: Moment,
+    pub(crate) identity: Identity,
     device: Device,
     language: u16,
-    maker: String<TEXT_BYTES>,
-    name: String<TEXT_BYTES>,
     configuration: Configuration,
     /// Which of the HID interfaces is looked at.
     hid: usize,
@@ -35,11 +34,8 @@ pub(crate) struct BringUp {
 /// What is asked of a device, one after the other, for those that a device has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stage {
-    /// After its reset.
-    Recovery,
     FirstBytes,
     Address,
-    AddressRecovery,
     Device,
     /// The configuration descriptor's own part.
     Head,
@@ -71,42 +67,31 @@ enum Found {
 }
 
 impl BringUp {
-    pub(crate) fn new(now_us: u64) -> Self {
+    pub(crate) fn new(deadline: Moment, speed: Speed) -> Self {
+        let (maker, name) = (Text::default(), Text::default());
         Self {
-            stage: Stage::Recovery,
-            deadline_us: now_us + READY_TIMEOUT_US,
+            stage: Stage::FirstBytes,
+            deadline,
+            identity: Identity { vendor: 0, product: 0, class: 0, speed, maker, name },
             device: Device::default(),
             language: 0,
-            maker: String::new(),
-            name: String::new(),
             configuration: Configuration::default(),
             hid: 0,
             found: Found::Nothing,
         }
     }
 
-    /// When it takes too long.
-    pub(crate) const fn deadline_us(&self) -> u64 {
-        self.deadline_us
+    pub(crate) fn is_ready(&self) -> bool {
+        self.stage == Stage::Ready
     }
 
-    /// Takes what the device is, once that is known.
-    pub(crate) fn take_ready(&mut self, link: &Link) -> Option<(Identity, Function)> {
-        if self.stage != Stage::Ready {
-            return None;
+    /// Returns what the device is to be served as.
+    pub(crate) fn role(&self) -> Role {
+        match (&self.found, self.configuration.hub, self.interface()) {
+            (&Found::Hub { ports, power_good }, Some(status), _) => Role::Hub(HubTalk::new(ports, power_good, status)),
+            (Found::Input(kind, reader), _, Some(hid)) => Role::Input(Input::new(*kind, hid, reader)),
+            _ => Role::Alone,
         }
-        let Device { vendor, product, class, .. } = self.device;
-        let class = if class == 0 { self.configuration.class } else { class };
-        let (maker, name) = (self.maker.clone(), self.name.clone());
-        let identity = Identity { vendor, product, class, speed: link.route.speed, maker, name };
-        let function = match (self.found, self.configuration.hub, self.interface()) {
-            (Found::Hub { ports, power_good }, Some(status), _) => {
-                Function::Hub(HubTalk::new(ports, power_good, status))
-            }
-            (Found::Input(kind, reader), _, Some(hid)) => Function::Input(kind, Input::new(hid, reader)),
-            _ => Function::None,
-        };
-        Some((identity, function))
     }
 
     /// The HID interface that is looked at.
@@ -118,14 +103,6 @@ impl BringUp {
     pub(crate) fn next(&mut self, link: &mut Link, memory: &Memory) -> Next {
         let number = self.interface().map_or(0, |hid| hid.number);
         let (doing, setup, length) = match self.stage {
-            Stage::Recovery => {
-                self.stage = Stage::FirstBytes;
-                return Next::Until(memory.now_us() + RESET_RECOVERY_US);
-            }
-            Stage::AddressRecovery => {
-                self.stage = Stage::Device;
-                return Next::Until(memory.now_us() + ADDRESS_RECOVERY_US);
-            }
             Stage::Wake(wake) => {
                 return self.interface().map_or(Next::Nothing, |hid| wake.next(link, memory, hid));
             }
@@ -158,8 +135,8 @@ impl BringUp {
         match self.stage {
             // What a device will not tell of its names, it has not.
             Stage::Languages => self.language = descriptor::language(&data).unwrap_or(0),
-            Stage::Maker => self.maker = descriptor::text(&data),
-            Stage::Name => self.name = descriptor::text(&data),
+            Stage::Maker => self.identity.maker = descriptor::text(&data),
+            Stage::Name => self.identity.name = descriptor::text(&data),
             Stage::Wake(wake) => {
                 if wake.has_to_succeed() {
                     unless_refused(link, answer)?;
@@ -179,15 +156,21 @@ impl BringUp {
             }
             Stage::Address => {
                 link.address = link.slot.address();
-                Stage::AddressRecovery
+                link.wait(memory, Wait::ADDRESS_RECOVERY);
+                Stage::Device
             }
             Stage::Device => {
                 self.device = Device::parse(&data).ok_or(link.nonsense())?;
+                let Device { vendor, product, class, .. } = self.device;
+                self.identity = Identity { vendor, product, class, ..self.identity };
                 Stage::Head
             }
             Stage::Head => Stage::Configuration { length: Configuration::total_length(&data).ok_or(link.nonsense())? },
             Stage::Configuration { .. } => {
                 self.configuration = Configuration::parse(&data).ok_or(link.nonsense())?;
+                if self.identity.class == 0 {
+                    self.identity.class = self.configuration.class;
+                }
                 if self.device.maker != 0 || self.device.name != 0 { Stage::Languages } else { self.configure(link) }
             }
             Stage::Languages if self.language != 0 && self.device.maker != 0 => Stage::Maker,
@@ -200,7 +183,9 @@ impl BringUp {
                 Stage::Ready
             }
             Stage::Wake(wake) => {
-                let after = self.interface().and_then(|hid| wake.after(&data, hid, [&self.maker, &self.name]));
+                let after = self
+                    .interface()
+                    .and_then(|hid| wake.after(&data, hid, [&self.identity.maker, &self.identity.name]));
                 after.map_or(Stage::Ready, Stage::Wake)
             }
             Stage::Protocol => match answer {
@@ -214,7 +199,7 @@ impl BringUp {
                 Some(layout) => self.found_layout(layout),
                 None => self.ask_for_reports(self.hid + 1),
             },
-            Stage::Quiet | Stage::Ready | Stage::Recovery | Stage::AddressRecovery => Stage::Ready,
+            Stage::Quiet | Stage::Ready => Stage::Ready,
         };
         Ok(())
     }

@@ -5,7 +5,6 @@ use core::future::{Future, pending, poll_fn};
 use core::task::Poll;
 use core::time::Duration;
 
-use embassy_futures::join::join;
 use embassy_futures::select::{Either, select};
 use embassy_usb_driver::host::{
     HostError, PipeError, TimeoutConfig, UsbHostAllocator, UsbHostController, UsbPipe, pipe,
@@ -16,18 +15,19 @@ use crate::Memory;
 use crate::mailbox::{Mailbox, Outcome, Request, TransferError, Way};
 use crate::root::Root;
 use crate::slots::SlotIndex;
-use crate::timing::{CONTROL_TIMEOUT_US, STAGE_TIMEOUT_US};
+use crate::timing::Wait;
 
 /// How often a control transfer that was garbled on the way is sent.
 const TRIES: u32 = 3;
+const STAGE_TIMEOUT: Duration = Duration::from_micros(Wait::STAGE_TIMEOUT.microseconds());
 
 /// Carries between one slot's mailbox and the controller, for one device after the other.
 pub(crate) async fn slot<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, slot: SlotIndex) -> Infallible {
     let mailbox = memory.mailbox(slot);
     loop {
         mailbox.until_open(true).await;
-        let both = join(transfers(memory, allocator, mailbox), packets(memory, allocator, mailbox));
-        select(both, mailbox.until_open(false)).await;
+        let carried = select(transfers(memory, allocator, mailbox), packets(memory, allocator, mailbox));
+        select(carried, mailbox.until_open(false)).await;
     }
 }
 
@@ -51,9 +51,7 @@ async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, 
         let request = mailbox.next_request().await;
         let answer = {
             let mut data = mailbox.data_mut(request.length.into());
-            let packets = data.len().div_ceil(request.way.packet.into()).max(1) as u64;
-            let limit_us = CONTROL_TIMEOUT_US.min(packets * STAGE_TIMEOUT_US);
-            match select(transfer(allocator, &request, &mut data), memory.sleep(limit_us)).await {
+            match select(transfer(allocator, &request, &mut data), memory.sleep(request.limit())).await {
                 Either::First(outcome) => outcome,
                 Either::Second(()) => Err(TransferError::Pipe(PipeError::Timeout)),
             }
@@ -69,8 +67,8 @@ async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request,
     };
     let mut pipe = take_pipe::<A, pipe::Control, pipe::InOut>(allocator, &request.way).await?;
     let mut timeout = TimeoutConfig::default();
-    timeout.data_timeout = Duration::from_micros(STAGE_TIMEOUT_US);
-    timeout.no_data_timeout = Duration::from_micros(STAGE_TIMEOUT_US);
+    timeout.data_timeout = STAGE_TIMEOUT;
+    timeout.no_data_timeout = STAGE_TIMEOUT;
     pipe.set_timeout(timeout);
     let packet = setup.bytes(request.length);
     let mut tries = 1;
@@ -94,7 +92,7 @@ async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request,
 async fn packets<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, mailbox: &Mailbox) -> Infallible {
     let way = mailbox.next_listening().await;
     let pipe = take_pipe::<A, pipe::Interrupt, pipe::In>(allocator, &way);
-    let error = match select(pipe, memory.sleep(STAGE_TIMEOUT_US)).await {
+    let error = match select(pipe, memory.sleep(Wait::STAGE_TIMEOUT)).await {
         Either::First(Ok(mut pipe)) => loop {
             // A slice of exactly one packet: it ends with that, whatever a controller makes of a longer one.
             let arrival = pipe.request_in(&mut mailbox.packet_mut(way.packet)).await;

@@ -3,7 +3,7 @@
 use crate::descriptor::HidInterface;
 use crate::link::{Link, Next};
 use crate::setup::{ReportType, Setup};
-use crate::{Memory, Step};
+use crate::{Memory, Step, Text};
 
 /// idVendor and idProduct.
 pub(crate) const PRODUCT: (u16, u16) = (0x054C, 0x0268);
@@ -46,11 +46,11 @@ impl Wake {
     }
 
     /// Returns what follows the answer to this, `None` at the end; `names` are the pad's and its maker's.
-    pub(crate) fn after(self, answer: &[u8], hid: &HidInterface, names: [&str; 2]) -> Option<Self> {
+    pub(crate) fn after(self, answer: &[u8], hid: &HidInterface, names: [&Text; 2]) -> Option<Self> {
         match self {
             Self::ReadF2 => Some(Self::ReadF5),
             Self::ReadF5 => match answer.first() {
-                Some(&byte) if hid.output.is_some() && !names.iter().any(|name| is_shanwan(name)) => {
+                Some(&byte) if hid.output.is_some() && !names.iter().any(|name| is_shanwan(name.as_bytes())) => {
                     Some(Self::Byte(byte))
                 }
                 _ => Some(Self::WriteF4),
@@ -61,9 +61,9 @@ impl Wake {
     }
 }
 
-fn is_shanwan(name: &str) -> bool {
+fn is_shanwan(name: &[u8]) -> bool {
     const MAKER: &[u8] = b"shanwan";
-    name.as_bytes().windows(MAKER.len()).any(|part| part.eq_ignore_ascii_case(MAKER))
+    name.windows(MAKER.len()).any(|part| part.eq_ignore_ascii_case(MAKER))
 }
 
 /// Makes output report 0x01, without its id: the small motor on or off, one of four lamps lit.
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_maker_is_known_by_its_name() {
-        assert!(is_shanwan("SHANWAN PS3 GamePad") && is_shanwan("ShanWan"));
-        assert!(!is_shanwan("Sony") && !is_shanwan(""));
+        assert!(is_shanwan(b"SHANWAN PS3 GamePad") && is_shanwan(b"ShanWan"));
+        assert!(!is_shanwan(b"Sony") && !is_shanwan(b""));
     }
 }

@@ -4,7 +4,7 @@ use crate::descriptor::Endpoint;
 use crate::link::{Link, Next};
 use crate::mailbox::{Outcome, TransferError};
 use crate::setup::Setup;
-use crate::timing::{READ_ERRORS_MAXIMUM, READ_PAUSE_US};
+use crate::timing::{READ_ERRORS_MAXIMUM, Wait};
 use crate::{Fault, Memory, Step};
 
 /// An endpoint that is listened to.
@@ -14,7 +14,7 @@ pub(crate) struct Ear {
     /// What listening is for.
     doing: Step,
     /// Failures in a row.
-    errors: u32,
+    errors: u8,
     stage: Stage,
 }
 
@@ -61,10 +61,10 @@ impl Ear {
                     link.doing = self.doing;
                     return Err(link.fault(error));
                 }
-                let until_us = memory.now_us() + (READ_PAUSE_US << self.errors);
+                let pause = Wait::READ_PAUSE.times(1 << self.errors);
                 self.errors += 1;
                 self.stage = Stage::Paused { halted: error == TransferError::STALL };
-                Ok(Some(Next::Until(until_us)))
+                Ok(Some(link.wait(memory, pause)))
             }
             Stage::Paused { halted: false } => {
                 self.stage = Stage::Listening;

@@ -6,7 +6,7 @@ use crate::{Fault, Identity, Kind, Place};
 
 /// Something that happened on the bus. Nothing is lost between two [`poll`](crate::UsbInput::poll)s:
 /// while the queue is full the devices wait.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Event {
     /// A keyboard's state, as a boot keyboard reports it.

@@ -8,7 +8,7 @@ use crate::ear::Ear;
 use crate::link::{Link, Next};
 use crate::mailbox::Outcome;
 use crate::setup::{Setup, descriptor};
-use crate::timing::POWER_GOOD_UNIT_US;
+use crate::timing::Wait;
 use crate::{Fault, Kind, Memory, Step};
 use port::{Port, Task};
 use status::{Status, feature};
@@ -108,7 +108,7 @@ impl HubTalk {
             }
             Stage::Power { port } if port > self.served() => {
                 self.stage = Stage::PowerGood;
-                return Ok(Next::Until(memory.now_us() + u64::from(self.power_good) * POWER_GOOD_UNIT_US));
+                return Ok(link.wait(memory, Wait::POWER_GOOD_UNIT.times(self.power_good.into())));
             }
             Stage::Power { port } => {
                 return Ok(link.order(memory, Step::Port, Setup::set_port_feature(feature::POWER, port)));

@@ -3,10 +3,8 @@
 use core::fmt;
 
 use embassy_usb_driver::Speed;
-use heapless::String;
 
-/// Characters of a string descriptor that are kept, in bytes of UTF-8.
-pub const TEXT_BYTES: usize = 32;
+use crate::Text;
 
 /// What a device is served as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +28,7 @@ pub enum Kind {
 }
 
 /// What a device says of itself.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Identity {
     /// idVendor.
     pub vendor: u16,
@@ -41,9 +39,9 @@ pub struct Identity {
     /// How fast it signals.
     pub speed: Speed,
     /// Its maker's name, empty if it tells none.
-    pub maker: String<TEXT_BYTES>,
+    pub maker: Text,
     /// Its own name, empty if it tells none.
-    pub name: String<TEXT_BYTES>,
+    pub name: Text,
 }
 
 impl fmt::Display for Identity {

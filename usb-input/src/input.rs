@@ -6,12 +6,13 @@ use crate::link::{Link, Next};
 use crate::mailbox::Outcome;
 use crate::reader::{Reader, Reading, low_battery};
 use crate::setup::{ReportType, Setup};
-use crate::timing::PULSE_US;
-use crate::{Event, Fault, Memory, Step, dualshock3};
+use crate::timing::{Moment, Wait};
+use crate::{Event, Fault, Kind, Memory, Step, dualshock3};
 
 /// A device whose reports are read.
 #[derive(Debug)]
 pub(crate) struct Input {
+    kind: Kind,
     interface: u8,
     reader: Reader,
     ear: Ear,
@@ -38,15 +39,16 @@ enum Touch {
     /// Its motor is to run.
     Shake,
     Shaking {
-        until_us: u64,
+        until: Moment,
     },
 }
 
 impl Input {
-    pub(crate) fn new(hid: &HidInterface, reader: Reader) -> Self {
+    pub(crate) fn new(kind: Kind, hid: &HidInterface, reader: &Reader) -> Self {
         Self {
+            kind,
             interface: hid.number,
-            reader,
+            reader: *reader,
             ear: Ear::new(hid.input, Step::Reports),
             report: [0; PACKET_MAXIMUM as usize],
             filled: 0,
@@ -54,6 +56,10 @@ impl Input {
             battery_told: false,
             touch: Touch::Blinking,
         }
+    }
+
+    pub(crate) const fn kind(&self) -> Kind {
+        self.kind
     }
 
     /// Begins to listen.
@@ -113,7 +119,7 @@ impl Input {
         if !self.ear.answered(link, memory, answer)? {
             // How an output ends does not matter.
             self.touch = match self.touch {
-                Touch::Shake => Touch::Shaking { until_us: memory.now_us() + PULSE_US },
+                Touch::Shake => Touch::Shaking { until: memory.after(Wait::PULSE) },
                 _ => Touch::Resting { frozen: memory.frozen.get() },
             };
         }
@@ -131,7 +137,7 @@ impl Input {
         match self.touch {
             Touch::Resting { frozen: false } if frozen && memory.config.pulse_on_freeze => self.touch = Touch::Shake,
             Touch::Resting { .. } => self.touch = Touch::Resting { frozen },
-            Touch::Shaking { until_us } if memory.has_come(until_us) => self.touch = Touch::Calm,
+            Touch::Shaking { until } if memory.has_come(until) => self.touch = Touch::Calm,
             _ => {}
         }
         Ok(match self.touch {

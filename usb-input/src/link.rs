@@ -7,6 +7,7 @@ use crate::mailbox::{DATA_BYTES, Mailbox, Outcome, Request, TransferError, Way};
 use crate::route::Route;
 use crate::setup::Setup;
 use crate::slots::SlotIndex;
+use crate::timing::{Moment, Wait};
 use crate::{Fault, Memory, Place, Step};
 
 /// A device, reached at an address.
@@ -20,6 +21,8 @@ pub(crate) struct Link {
     pub(crate) packet: u16,
     /// What is being done.
     pub(crate) doing: Step,
+    /// Nothing is said before.
+    pub(crate) until: Moment,
 }
 
 /// What is wanted next of a device, or of time.
@@ -27,8 +30,8 @@ pub(crate) struct Link {
 pub(crate) enum Next {
     /// A transfer was wanted; its answer comes.
     Answer,
-    /// Nothing before a time.
-    Until(u64),
+    /// To be asked again when [`Link::until`] has come.
+    Wait,
     /// To be asked again, at once.
     Again,
     /// Nothing, until something happens.
@@ -47,6 +50,12 @@ impl Link {
     /// What the last transfer brought.
     pub(crate) fn data<'m>(&self, memory: &'m Memory, count: usize) -> Ref<'m, [u8]> {
         self.mailbox(memory).data(count)
+    }
+
+    /// Says nothing for a while.
+    pub(crate) fn wait(&mut self, memory: &Memory, wait: Wait) -> Next {
+        self.until = memory.after(wait);
+        Next::Wait
     }
 
     /// Reads up to so many bytes by a control transfer, for [`data`](Self::data).

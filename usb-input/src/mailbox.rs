@@ -11,6 +11,7 @@ use embassy_usb_driver::host::{PipeError, SplitInfo};
 
 use crate::descriptor::PACKET_MAXIMUM;
 use crate::setup::Setup;
+use crate::timing::Wait;
 
 /// Bytes of the longest transfer on endpoint 0; what a descriptor has beyond is not seen.
 pub(crate) const DATA_BYTES: usize = 512;
@@ -49,6 +50,18 @@ pub(crate) struct Request {
     pub(crate) setup: Option<Setup>,
     /// Bytes of the mailbox's data that go out, or that there is room for.
     pub(crate) length: u16,
+}
+
+impl Request {
+    /// How long it may take: each packet of its data its time, all no longer than any request.
+    pub(crate) const fn limit(&self) -> Wait {
+        let packets = self.length.div_ceil(self.way.packet);
+        match packets {
+            0..=1 => Wait::STAGE_TIMEOUT,
+            2..=9 => Wait::STAGE_TIMEOUT.times(packets as u32),
+            _ => Wait::CONTROL_TIMEOUT,
+        }
+    }
 }
 
 /// One device's mailbox.

@@ -8,6 +8,8 @@ use heapless::Deque;
 
 use crate::mailbox::Mailbox;
 use crate::slots::{DEVICES_MAXIMUM, SlotIndex, Slots};
+use crate::stack::Stack;
+use crate::timing::{Moment, Wait};
 use crate::{Config, Event, Fault, Place};
 
 /// Events that can wait.
@@ -21,13 +23,18 @@ pub struct Memory {
     pub(crate) config: Config,
     pub(crate) slots: Slots,
     pub(crate) frozen: Cell<bool>,
+    pub(crate) stack: RefCell<Stack>,
     mailboxes: [Mailbox; DEVICES_MAXIMUM],
     events: RefCell<Deque<Event, QUEUE_LENGTH>>,
     /// The time of this poll.
+    now: Cell<Moment>,
     now_us: Cell<u64>,
-    /// The earliest end of a wait that the last poll met.
-    next_wait_us: Cell<Option<u64>>,
+    /// How far the earliest end of a wait is away that this poll met.
+    nearest: Cell<u32>,
 }
+
+/// Nothing is waited for.
+const NEVER: u32 = u32::MAX;
 
 impl Memory {
     /// Returns memory of a bus with nothing on it.
@@ -37,25 +44,36 @@ impl Memory {
             config,
             slots: Slots::new(),
             frozen: Cell::new(false),
+            stack: RefCell::new(Stack::new()),
             mailboxes: [const { Mailbox::new() }; DEVICES_MAXIMUM],
             events: RefCell::new(Deque::new()),
+            now: Cell::new(Moment::from_us(0)),
             now_us: Cell::new(0),
-            next_wait_us: Cell::new(None),
+            nearest: Cell::new(NEVER),
         }
     }
 
     /// Begins a poll.
     pub(crate) fn begin_poll(&self, now_us: u64) {
         self.now_us.set(now_us);
-        self.next_wait_us.set(None);
+        self.now.set(Moment::from_us(now_us));
+        self.nearest.set(NEVER);
     }
 
-    pub(crate) fn now_us(&self) -> u64 {
-        self.now_us.get()
+    /// Returns when a wait will be over that begins now.
+    pub(crate) fn after(&self, wait: Wait) -> Moment {
+        self.now.get().after(wait)
     }
 
+    /// Returns when the earliest of the waits ends that the last poll met.
     pub(crate) fn next_wait_us(&self) -> Option<u64> {
-        self.next_wait_us.get()
+        let nearest = self.nearest.get();
+        (nearest != NEVER).then(|| Moment::to_us(nearest, self.now_us.get()))
+    }
+
+    /// Says that there is more to do at once.
+    pub(crate) fn hurry(&self) {
+        self.nearest.set(0);
     }
 
     pub(crate) fn mailbox(&self, slot: SlotIndex) -> &Mailbox {
@@ -68,20 +86,19 @@ impl Memory {
         self.slots.take_stirred() | mailboxes
     }
 
-    /// Tells whether a time has come; else notes that somebody waits for it.
+    /// Tells whether a moment has come; else notes that somebody waits for it.
     #[inline(never)]
-    pub(crate) fn has_come(&self, time_us: u64) -> bool {
-        let come = self.now_us() >= time_us;
-        if !come {
-            let earliest = self.next_wait_us.get().map_or(time_us, |other| other.min(time_us));
-            self.next_wait_us.set(Some(earliest));
+    pub(crate) fn has_come(&self, moment: Moment) -> bool {
+        let away = moment.away_from(self.now.get());
+        if let Some(away) = away {
+            self.nearest.set(self.nearest.get().min(away));
         }
-        come
+        away.is_none()
     }
 
     /// Waits for a while.
-    pub(crate) fn sleep(&self, duration_us: u64) -> Sleep<'_> {
-        Sleep { memory: self, until_us: self.now_us() + duration_us }
+    pub(crate) fn sleep(&self, wait: Wait) -> Sleep<'_> {
+        Sleep { memory: self, until: self.after(wait) }
     }
 
     /// Tells whether there is room for what may come of one occurrence.
@@ -110,13 +127,13 @@ impl Memory {
 /// A wait.
 pub(crate) struct Sleep<'m> {
     memory: &'m Memory,
-    until_us: u64,
+    until: Moment,
 }
 
 impl Future for Sleep<'_> {
     type Output = ();
 
     fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
-        if self.memory.has_come(self.until_us) { Poll::Ready(()) } else { Poll::Pending }
+        if self.memory.has_come(self.until) { Poll::Ready(()) } else { Poll::Pending }
     }
 }

@@ -9,7 +9,7 @@ use embassy_usb_driver::host::DeviceEvent;
 
 use crate::route::Route;
 use crate::slots::SlotIndex;
-use crate::timing::{ATTEMPTS, RETRY_PAUSE_US, ROOT_RETRY_PAUSE_US};
+use crate::timing::{ATTEMPTS, Moment, Wait};
 use crate::{Fault, Memory, Place};
 
 /// What goes between the root port's logic and the controller.
@@ -32,7 +32,7 @@ enum State {
     Busy(SlotIndex, Course),
     /// A device that failed is to be reset at a time.
     Failed {
-        retry_us: u64,
+        retry: Moment,
         course: Course,
     },
     /// It is being reset.
@@ -99,11 +99,11 @@ impl Root {
                 memory.slots.leave(device);
                 let attempts = (attempts + 1).min(ATTEMPTS);
                 // A device on the board cannot be plugged in again: it is never given up.
-                let pause_us = if attempts < ATTEMPTS { RETRY_PAUSE_US } else { ROOT_RETRY_PAUSE_US };
+                let pause = if attempts < ATTEMPTS { Wait::RETRY_PAUSE } else { Wait::ROOT_RETRY_PAUSE };
                 let course = Course { speed, attempts };
-                self.state.set(State::Failed { retry_us: memory.now_us() + pause_us, course });
+                self.state.set(State::Failed { retry: memory.after(pause), course });
             }
-            State::Failed { retry_us, course } if memory.has_come(retry_us) => {
+            State::Failed { retry, course } if memory.has_come(retry) => {
                 self.reset_wanted.set(true);
                 self.state.set(State::Resetting(course));
             }

@@ -5,12 +5,11 @@ use core::future::{Future, poll_fn};
 use core::pin::pin;
 use core::task::Poll;
 
-use embassy_futures::join::{join, join_array};
+use embassy_futures::select::{select, select_array};
 use embassy_usb_driver::host::UsbHostController;
 
 use crate::root::Root;
-use crate::slots::SlotIndex;
-use crate::stack::Stack;
+use crate::slots::{DEVICES_MAXIMUM, SlotIndex};
 use crate::{Clock, Memory, carrier};
 
 /// How often one poll goes round everybody, at most: for an answer, and for what follows it.
@@ -25,20 +24,22 @@ const ROUNDS: u32 = 4;
 /// would have told.
 pub async fn run<'d, C: UsbHostController<'d>>(controller: C, clock: impl Clock, memory: &Memory) -> Infallible {
     let allocator = &controller.allocator();
-    let (mut stack, root) = (Stack::new(), Root::default());
-    let slots = SlotIndex::ALL.map(|slot| carrier::slot(memory, allocator, slot));
-    let mut carriers = pin!(join(carrier::root_port(&root, controller), join_array(slots)));
+    let root = Root::default();
+    let slots =
+        core::array::from_fn::<_, DEVICES_MAXIMUM, _>(|index| carrier::slot(memory, allocator, SlotIndex::new(index)));
+    // None of them ever ends.
+    let mut carriers = pin!(select(carrier::root_port(&root, controller), select_array(slots)));
     poll_fn(|context| {
         memory.begin_poll(clock.now_us());
         for _ in 0..ROUNDS {
-            stack.poll(memory, &root);
+            memory.stack.borrow_mut().poll(memory, &root);
             let _ = carriers.as_mut().poll(context);
             if !(memory.take_stirred() | root.take_stirred()) {
                 return Poll::Pending;
             }
         }
         // There is more to do at once, but not in this poll.
-        memory.has_come(memory.now_us() + 1);
+        memory.hurry();
         Poll::Pending
     })
     .await

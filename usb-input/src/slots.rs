@@ -23,6 +23,10 @@ impl SlotIndex {
         all
     };
 
+    pub(crate) const fn new(index: usize) -> Self {
+        Self(index as u8)
+    }
+
     pub(crate) const fn index(self) -> usize {
         self.0 as usize
     }

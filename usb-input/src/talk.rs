@@ -9,7 +9,8 @@ use crate::link::{Link, Next};
 use crate::mailbox::Outcome;
 use crate::route::Route;
 use crate::slots::SlotIndex;
-use crate::{Event, Fault, Identity, Kind, Memory, Step};
+use crate::timing::Wait;
+use crate::{Event, Fault, Memory, Step};
 
 /// What is said to one device.
 #[derive(Debug)]
@@ -18,13 +19,11 @@ pub(crate) struct Talk {
     role: Role,
     /// A transfer is under way.
     waiting: bool,
-    /// Nothing is said before.
-    until_us: u64,
 }
 
 /// What a device is served as.
 #[derive(Debug)]
-enum Role {
+pub(crate) enum Role {
     BringUp(BringUp),
     Hub(HubTalk),
     Input(Input),
@@ -32,20 +31,14 @@ enum Role {
     Alone,
 }
 
-/// What became of bringing a device up.
-pub(crate) enum Function {
-    Hub(HubTalk),
-    Input(Kind, Input),
-    None,
-}
-
 impl Talk {
     /// Begins with a device that has just been reset.
     pub(crate) fn new(slot: SlotIndex, route: Route, memory: &Memory) -> Self {
         // What every device of the speed understands for its first eight bytes (USB 2.0 §5.5.3).
         let packet = if route.speed == Speed::Low { 8 } else { 64 };
-        let link = Link { slot, route, address: 0, packet, doing: Step::DeviceDescriptor };
-        Self { link, role: Role::BringUp(BringUp::new(memory.now_us())), waiting: false, until_us: 0 }
+        let until = memory.after(Wait::RESET_RECOVERY);
+        let link = Link { slot, route, address: 0, packet, doing: Step::DeviceDescriptor, until };
+        Self { link, role: Role::BringUp(BringUp::new(memory.after(Wait::READY_TIMEOUT), route.speed)), waiting: false }
     }
 
     /// Goes on a step if there is one to go.
@@ -59,7 +52,7 @@ impl Talk {
             role.hear(link, memory, arrival);
         }
         if let Role::BringUp(bring_up) = role
-            && memory.has_come(bring_up.deadline_us())
+            && memory.has_come(bring_up.deadline)
         {
             return Err(Fault::TooSlow);
         }
@@ -68,16 +61,12 @@ impl Talk {
             self.waiting = false;
             role.answered(link, memory, answer)?;
         }
-        if !memory.has_come(self.until_us) || !memory.has_room() {
+        if !memory.has_come(link.until) || !memory.has_room() {
             return Ok(());
         }
         match role.next(link, memory)? {
             Next::Answer => self.waiting = true,
-            Next::Until(time_us) => {
-                memory.has_come(time_us);
-                self.until_us = time_us;
-            }
-            Next::Again => mailbox.stir(),
+            Next::Wait | Next::Again => mailbox.stir(),
             Next::Nothing => {}
         }
         Ok(())
@@ -105,8 +94,8 @@ impl Role {
     fn next(&mut self, link: &mut Link, memory: &Memory) -> Result<Next, Fault> {
         match self {
             Self::BringUp(bring_up) => {
-                if let Some((identity, function)) = bring_up.take_ready(link) {
-                    *self = Self::ready(link, memory, identity, function);
+                if bring_up.is_ready() {
+                    self.begin(link, memory);
                     return Ok(Next::Again);
                 }
                 Ok(bring_up.next(link, memory))
@@ -118,22 +107,23 @@ impl Role {
     }
 
     /// Tells of a device that is ready, and begins to serve it.
-    fn ready(link: &Link, memory: &Memory, identity: Identity, function: Function) -> Self {
-        memory.slots.end_turn(link.slot);
-        let device = link.place();
-        let (kind, role) = match function {
-            Function::Hub(hub) => (Some(hub.kind()), Self::Hub(hub)),
-            Function::Input(kind, input) => {
+    fn begin(&mut self, link: &Link, memory: &Memory) {
+        let Self::BringUp(bring_up) = self else { return };
+        let (device, identity, role) = (link.place(), bring_up.identity, bring_up.role());
+        let kind = match &role {
+            Self::Hub(hub) => Some(hub.kind()),
+            Self::Input(input) => {
                 input.listen(link, memory);
-                (Some(kind), Self::Input(input))
+                Some(input.kind())
             }
-            Function::None => (None, Self::Alone),
+            _ => None,
         };
+        memory.slots.end_turn(link.slot);
         memory.slots.set_told(link.slot, kind);
         memory.tell(match kind {
             Some(kind) => Event::Attached { device, kind, identity },
             None => Event::Unsupported { device, identity },
         });
-        role
+        *self = role;
     }
 }

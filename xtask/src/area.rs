@@ -79,10 +79,12 @@ pub fn synthesize(yosys: &Path, units: u32) -> anyhow::Result<Area> {
 
 /// Yosys' memory block has one clock, so VGA's is taken for the bus's: that changes no count.
 fn script(units: u32, statistics: &Path, path: &Path) -> String {
+    let synthesize = "synth_intel_alm -family cyclonev -top halfspace -noiopad -noclkbuf";
     format!(
         "read_slang -j 1 -D SYNTHESIS -F rtl/files.f --top halfspace -G PixelUnits={units}; \
          delete -port halfspace/vga_clk_i; connect -set vga_clk_i clk_i; \
-         synth_intel_alm -family cyclonev -top halfspace -noiopad -noclkbuf; \
+         {synthesize} -run begin:map_bram; memory_bram -rules rtl/area/m10k.txt; \
+         techmap -map +/intel_alm/common/bram_m10k_map.v; {synthesize} -run map_lutram:check; \
          tee -q -o {} stat -json; delete t:MISTRAL_FF t:MISTRAL_M10K; tee -q -o {} ltp",
         statistics.display(),
         path.display()

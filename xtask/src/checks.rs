@@ -56,10 +56,10 @@ const CHECKS: &[Check] = &[
     Check { name: "clippy finds nothing", run: |_| cargo::clippy() },
     Check { name: "the tests of every crate pass on this computer", run: |_| cargo::tests() },
     Check { name: "the generated files are fresh", run: |_| generated_files() },
+    Check { name: "this computer has Verilator", run: rtl::tools },
     Check { name: "the Quartus project agrees with the design and with itself", run: fpga::project },
     Check { name: "the lint of the Quartus project finds mistakes", run: |_| cargo::fpga_tests() },
     Check { name: "the board's keys, switches, lights and displays answer", run: fpga::board_io },
-    Check { name: "this computer has Verilator", run: rtl::tools },
     Check { name: "clippy finds nothing in the FPGA's simulation", run: |_| rtl::clippy() },
     Check {
         name: "the FPGA's design equals the software model, with 1, 2, 4 and 8 pixel units",

@@ -56,7 +56,19 @@ impl TranslationTable {
     /// table is a constant.
     #[must_use]
     pub const fn new(regions: &[Region]) -> Self {
-        let mut entries = [descriptor(0, Memory::Fault); SECTIONS];
+        let mut table = Self::EMPTY;
+        table.map(regions);
+        table
+    }
+
+    /// A table by which every access faults.
+    pub const EMPTY: Self = Self([descriptor(0, Memory::Fault); SECTIONS]);
+
+    /// Adds regions. Where they overlap, with each other or with what is there, the later one counts.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub const fn map(&mut self, regions: &[Region]) {
         let mut index = 0;
         while index < regions.len() {
             let Region { start, sections, memory } = regions[index];
@@ -65,12 +77,11 @@ impl TranslationTable {
             assert!(first + sections <= SECTIONS as u32, "a region ends within 4 GiB");
             let mut section = first;
             while section < first + sections {
-                entries[section as usize] = descriptor(section * SECTION_BYTES, memory);
+                self.0[section as usize] = descriptor(section * SECTION_BYTES, memory);
                 section += 1;
             }
             index += 1;
         }
-        Self(entries)
     }
 
     /// Returns whether an access to `address` faults for want of a mapping.

@@ -93,7 +93,7 @@ impl L2c310 {
         self.registers.change(Offset::AuxiliaryControl, 0, config.auxiliary_control);
         self.registers.write(Offset::InvalidateWays, ALL_WAYS);
         self.wait(Offset::InvalidateWays, ALL_WAYS)?;
-        self.sync()?;
+        self.drain()?;
         self.registers.write(Offset::Control, 1);
         Ok(())
     }
@@ -113,7 +113,7 @@ impl L2c310 {
             self.registers.write(Offset::CleanLine, line);
             self.wait(Offset::CleanLine, 1)?;
         }
-        self.sync()
+        self.drain()
     }
 
     /// Drops the lines of a range. L1 is to be invalidated afterwards.
@@ -129,11 +129,14 @@ impl L2c310 {
             self.registers.write(Offset::InvalidateLine, line);
             self.wait(Offset::InvalidateLine, 1)?;
         }
-        self.sync()
+        self.drain()
     }
 
     /// Waits until the controller's buffers are drained.
-    fn sync(&mut self) -> Result<(), L2Error> {
+    ///
+    /// # Errors
+    /// [`L2Error::Stuck`].
+    pub fn drain(&mut self) -> Result<(), L2Error> {
         self.registers.write(Offset::Sync, 0);
         self.wait(Offset::Sync, 1)
     }

@@ -4,6 +4,7 @@ use core::cell::Cell;
 use core::fmt::Write as _;
 
 use critical_section::Mutex;
+use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
 use heapless::spsc::Queue;
 
@@ -17,8 +18,8 @@ use super::gpio::{Input, Output};
 use super::history::{FAILURES, Note, Stage, Verdict};
 use super::interrupts::{self, Sources};
 use super::memory_map::{
-    CLUSTER, FPGA_MANAGER, GPIO1, INTERCONNECT, KEY_BIT, LED_BIT, RESET_MANAGER, SYSTEM_MANAGER, TRANSLATION_TABLE,
-    UART, UART_HERTZ, UART_INTERRUPT, WATCHDOG,
+    CLUSTER, FPGA_MANAGER, GPIO1, INTERCONNECT, KEY_BIT, LED_BIT, REGIONS, RESET_MANAGER, SYSTEM_MANAGER, UART,
+    UART_HERTZ, UART_INTERRUPT, USB, USB_INTERRUPT, USB_MEMORY, WATCHDOG,
 };
 use super::reset_cause::ResetCause;
 use super::reset_manager::{Peripheral, ResetManager};
@@ -27,18 +28,24 @@ use super::uart16550::Uart16550;
 use super::watchdog::Watchdog;
 use crate::armv7a::exceptions::{Hooks, park};
 use crate::armv7a::start::arguments_of_go;
+use crate::armv7a::translation_table::TranslationTable;
 use crate::cortex_a9::gic::{Distributor, Interface, InterruptId};
-use crate::cortex_a9::global_timer::GlobalTimer;
+use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
+use crate::cortex_a9::l2c310::L2c310;
 use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::cortex_a9::start;
 use crate::mmio::Registers;
 use crate::serial::{Config, Console, Link};
+use crate::usb::{Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
 
 /// Bytes that the link queues: about a third of a second at 115,200 baud.
 const LINK_QUEUE: usize = 4096;
 const SERIAL: Config = Config { clock_hertz: UART_HERTZ, baud: 115_200 };
 /// The tick that ends every sleep, and at which the time is looked at.
-const TICKS_PER_SECOND: u32 = 1_000;
+const TICKS_PER_SECOND: u32 = (1_000_000 / TICK_MICROSECONDS) as u32;
+/// How long the USB core is held in reset: it wants twelve clocks of its PHY, 60 MHz, at least
+/// (Intel's HPS manual 683126, §19.4.4).
+const USB_RESET_US: u32 = 10;
 
 static TAKEN: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 
@@ -68,6 +75,12 @@ pub(super) struct Board {
     pub(super) arguments: Words,
 }
 
+impl Now for GlobalTimer {
+    fn microseconds(self) -> u64 {
+        self.microseconds()
+    }
+}
+
 impl Board {
     /// Sets everything up and returns the drivers, `None` at every call but the first.
     ///
@@ -86,8 +99,15 @@ impl Board {
         resets.release(Peripheral::Uart0);
         uart().configure(&SERIAL);
         let hooks = Hooks { write: write_last_words, stop: stop_after_fault };
-        // SAFETY: the first call, so `_start` was just before; the map is this board's.
-        let start = unsafe { start::bring_up(&CLUSTER, &TRANSLATION_TABLE, hooks) };
+        // Made here and not by the compiler: 16 KiB less to load.
+        static mut TABLE: TranslationTable = TranslationTable::EMPTY;
+        // SAFETY: the first call, so nobody else refers to the table, and `_start` was just before; the map is
+        // this board's.
+        let start = unsafe {
+            let table = &mut *(&raw mut TABLE);
+            table.map(REGIONS);
+            start::bring_up(&CLUSTER, table, hooks)
+        };
         // SAFETY: the first call, so these are the only drivers.
         Some(unsafe { Self::drivers(start, arguments) })
     }
@@ -96,6 +116,7 @@ impl Board {
     /// Called once, with the MMU on and UART0 set up.
     unsafe fn drivers(start: start::Report, arguments: Words) -> Self {
         static mut LINK_BYTES: Queue<u8, LINK_QUEUE> = Queue::new();
+        static USB_ROOM: Room<GlobalTimer> = Room::new();
 
         let (resets, system) = (resets(), system());
         let cause = resets.take_cause();
@@ -115,10 +136,22 @@ impl Board {
             interface.configure();
             let mut distributor = Distributor::at(CLUSTER.interrupt_distributor());
             distributor.configure();
-            for interrupt in [InterruptId::PRIVATE_TIMER, UART_INTERRUPT] {
+            resets.hold(Peripheral::Usb1);
+            Delay::new(clock).delay_us(USB_RESET_US);
+            resets.release(Peripheral::Usb1);
+            let core = Dwc2Core::at(USB, USB_MEMORY, clock, drain_to_memory);
+            let usb = Service::new(&USB_ROOM, core, dwc2_host::Config::new(), clock).expect("the room is taken once");
+
+            for interrupt in [InterruptId::PRIVATE_TIMER, UART_INTERRUPT, USB_INTERRUPT] {
                 distributor.enable(interrupt);
             }
-            interrupts::install(Sources { interface, distributor, timer: timer.interrupt(), link: link_interrupt });
+            interrupts::install(Sources {
+                interface,
+                distributor,
+                timer: timer.interrupt(),
+                link: link_interrupt,
+                usb,
+            });
             timer.start_periodic(TICKS_PER_SECOND);
             // Not inside a critical section: every one above has ended.
             cortex_ar::interrupt::enable();
@@ -146,6 +179,16 @@ impl Board {
             }
         }
     }
+}
+
+/// Returns when what was stored in uncached memory has left the processor's and the L2 cache's write buffers, and
+/// nothing that follows is loaded before.
+fn drain_to_memory() {
+    cortex_ar::asm::dsb();
+    // SAFETY: the controller answers there; draining its buffers disturbs nobody.
+    let mut cache = unsafe { L2c310::at(CLUSTER.l2_cache_controller) };
+    // One that is stuck is off since the start.
+    let _ = cache.drain();
 }
 
 /// The UART. Its drivers are this module's: console and link, and the last words after both.

@@ -9,6 +9,10 @@ use fpga_regs::{MmioPort, Port, de1_soc};
 use super::fpga_manager::FpgaManager;
 
 /// A [`Port`] on the board's two bridges.
+///
+/// An access to an FPGA that has lost its design stops the processor for good, and somebody may load another over
+/// JTAG at any time. So each access asks the FPGA manager first, which takes as long as a third of a read. One to
+/// an FPGA that does not run has no effect and reads 0: the driver's time-outs and its next start then say so.
 pub struct BridgePort {
     port: MmioPort,
     manager: FpgaManager,
@@ -37,14 +41,18 @@ impl Port for BridgePort {
     }
 
     fn read(&mut self, register: Register) -> u32 {
-        self.port.read(register)
+        if self.configured().is_ok() { self.port.read(register) } else { 0 }
     }
 
     fn write(&mut self, register: Register, value: u32) {
-        self.port.write(register, value);
+        if self.configured().is_ok() {
+            self.port.write(register, value);
+        }
     }
 
     fn push(&mut self, words: &[u32]) {
-        self.port.push(words);
+        if self.configured().is_ok() {
+            self.port.push(words);
+        }
     }
 }

@@ -182,9 +182,11 @@ mod tests {
     use crate::mmio::mock::{Access, MockBus};
     use std::collections::BTreeMap;
 
+    type TestBus = MockBus<BTreeMap<usize, u32>>;
+
     const BASE: usize = fpga_regs::de1_soc::BOARD_IO;
 
-    fn panel(keys: u32, switches: u32) -> (FrontPanel<MockBus<BTreeMap<usize, u32>>>, MockBus<BTreeMap<usize, u32>>) {
+    fn panel(keys: u32, switches: u32) -> (FrontPanel<TestBus>, TestBus) {
         let bus = MockBus::new(BTreeMap::from([(BASE, keys), (BASE + 4, switches)]));
         (FrontPanel::new(Registers::on(bus.clone(), BASE)), bus)
     }

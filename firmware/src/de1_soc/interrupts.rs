@@ -1,10 +1,11 @@
 //! Which interrupt does what.
 
-use super::memory_map::{FPGA_INTERRUPT, UART_INTERRUPT};
+use super::memory_map::{FPGA_INTERRUPT, UART_INTERRUPT, USB_INTERRUPT};
 use super::uart16550::Uart16550;
 use crate::cortex_a9::gic::{Distributor, Interface, InterruptId};
 use crate::cortex_a9::private_timer::TimerInterrupt;
 use crate::serial::LinkInterrupt;
+use crate::usb::Service;
 use core::cell::RefCell;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use cortex_a_rt::irq;
@@ -16,6 +17,7 @@ pub(super) struct Sources {
     pub(super) distributor: Distributor,
     pub(super) timer: TimerInterrupt,
     pub(super) link: LinkInterrupt<Uart16550>,
+    pub(super) usb: Service,
 }
 
 static SOURCES: Mutex<RefCell<Option<Sources>>> = Mutex::new(RefCell::new(None));
@@ -26,6 +28,11 @@ static UNEXPECTED: AtomicU32 = AtomicU32::new(0);
 /// Hands the handler what it serves. Interrupts are still masked.
 pub(super) fn install(sources: Sources) {
     critical_section::with(|section| SOURCES.replace(section, Some(sources)));
+}
+
+/// Works on the USB bus, while its interrupts wait; `None` before there is one.
+pub(super) fn with_usb<R>(work: impl FnOnce(&mut Service) -> R) -> Option<R> {
+    critical_section::with(|section| SOURCES.borrow_ref_mut(section).as_mut().map(|sources| work(&mut sources.usb)))
 }
 
 /// Lets the FPGA's interrupt come, once: its handler keeps it back, as only the driver can clear its
@@ -74,7 +81,10 @@ impl Sources {
     fn serve(&mut self) {
         let Some(acknowledged) = self.interface.acknowledge() else { return };
         match acknowledged.interrupt() {
-            InterruptId::PRIVATE_TIMER => self.timer.acknowledge(),
+            InterruptId::PRIVATE_TIMER => {
+                self.timer.acknowledge();
+                self.usb.tick();
+            }
             FPGA_INTERRUPT => {
                 // Its line stays up until the driver clears the cause, and a handler that touched the bridge could
                 // hang: so it is kept back until the driver waits again.
@@ -83,6 +93,7 @@ impl Sources {
                 count(&FPGA_CALLS);
             }
             UART_INTERRUPT => self.link.serve(),
+            USB_INTERRUPT => self.usb.on_interrupt(),
             other => {
                 self.distributor.disable(other);
                 count(&UNEXPECTED);

@@ -4,7 +4,7 @@
 //! U-Boot's SPL sets them on this board; interrupts of Intel's `alt_int_device.h`. The FPGA's
 //! side is in [`fpga_regs::de1_soc`].
 
-use crate::armv7a::translation_table::{Memory, Region, TranslationTable};
+use crate::armv7a::translation_table::{Memory, Region};
 use crate::cortex_a9::Cluster;
 use crate::cortex_a9::gic::InterruptId;
 
@@ -20,6 +20,8 @@ pub const GPIO1: usize = 0xFF70_9000;
 pub const INTERCONNECT: usize = 0xFF80_0000;
 /// Where the FPGA manager takes the words of an FPGA image.
 pub const FPGA_IMAGE_SINK: usize = 0xFFB9_0000;
+/// USB1: the host controller behind the board's two connectors.
+pub const USB: usize = 0xFFB4_0000;
 /// UART0: a DesignWare 16550, console and link in one.
 pub const UART: usize = 0xFFC0_2000;
 /// The first of the two L4 watchdogs.
@@ -36,6 +38,8 @@ pub const WATCHDOG_HERTZ: u32 = 25_000_000;
 
 /// The rasterizer's interrupt.
 pub const FPGA_INTERRUPT: InterruptId = InterruptId(fpga_regs::de1_soc::INTERRUPT as u16);
+/// USB1's interrupt.
+pub const USB_INTERRUPT: InterruptId = InterruptId(160);
 /// UART0's interrupt.
 pub const UART_INTERRUPT: InterruptId = InterruptId(194);
 
@@ -44,6 +48,8 @@ pub const LED_BIT: u32 = 24;
 /// Bit of GPIO1 that reads 0 while the HPS's key is pressed (HPS_GPIO54).
 pub const KEY_BIT: u32 = 25;
 
+/// Where the USB host controller reads and writes.
+pub const USB_MEMORY: usize = 0x0700_0000;
 /// First byte of where U-Boot may leave an FPGA image for the program to configure with.
 pub const FPGA_IMAGE: u32 = 0x0800_0000;
 /// One more than its last.
@@ -53,25 +59,30 @@ pub const FPGA_IMAGE_END: u32 = 0x1000_0000;
 ///
 /// The FPGA's windows are mapped although nothing may answer there: an access before the FPGA is
 /// configured and the bridge is open hangs the bus, and no table can prevent that.
-pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
+pub const REGIONS: &[Region] = &[
     Region { start: 0x0100_0000, sections: 16, memory: Memory::Code },
     Region { start: 0x0280_0000, sections: 64, memory: Memory::Data },
     // The stack guard, 8 MiB below the end of the data.
     Region { start: 0x0600_0000, sections: 1, memory: Memory::Fault },
+    // What a bus master reads and writes itself, past the caches.
+    Region { start: 0x0700_0000, sections: 1, memory: Memory::Uncached },
     Region { start: FPGA_IMAGE, sections: (FPGA_IMAGE_END - FPGA_IMAGE) >> 20, memory: Memory::Constants },
     // The HPS-to-FPGA bridge: of its 960 MiB the one that has the FIFO aperture.
     Region { start: 0xC000_0000, sections: 1, memory: Memory::Device },
     // The lightweight bridge (2 MiB at 0xFF200000), peripherals, on-chip RAM.
     Region { start: 0xFF20_0000, sections: 14, memory: Memory::Device },
-]);
+];
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::armv7a::translation_table::TranslationTable;
+
+    static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(REGIONS);
 
     #[test]
     fn what_the_program_touches_is_mapped_and_its_guard_is_not() {
-        for address in [FPGA_MANAGER, INTERCONNECT, FPGA_IMAGE_SINK, UART, RESET_MANAGER, CLUSTER.private_region] {
+        for address in [FPGA_MANAGER, INTERCONNECT, FPGA_IMAGE_SINK, USB, USB_MEMORY, UART, RESET_MANAGER] {
             assert!(!TRANSLATION_TABLE.is_hole(address as u32), "{address:#x}");
         }
         for address in [fpga_regs::de1_soc::REGISTERS, fpga_regs::de1_soc::FIFO_APERTURE, FPGA_IMAGE_END as usize - 1] {

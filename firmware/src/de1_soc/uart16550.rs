@@ -121,10 +121,12 @@ mod tests {
     use crate::mmio::mock::{Access, MockBus};
     use std::collections::BTreeMap;
 
+    type TestBus = MockBus<BTreeMap<usize, u32>>;
+
     const BASE: usize = 0xFFC0_2000;
     const SERIAL: Config = Config { clock_hertz: 100_000_000, baud: 115_200 };
 
-    fn uart(status: u32) -> (Uart16550<MockBus<BTreeMap<usize, u32>>>, MockBus<BTreeMap<usize, u32>>) {
+    fn uart(status: u32) -> (Uart16550<TestBus>, TestBus) {
         let bus = MockBus::new(BTreeMap::from([(BASE + 0x14, status)]));
         (Uart16550::new(Registers::on(bus.clone(), BASE)), bus)
     }

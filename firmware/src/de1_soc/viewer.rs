@@ -13,7 +13,7 @@ use super::fpga::Fpga;
 use super::front_panel::FrontPanel;
 use super::gpio::{Input, Output};
 use super::history::Verdict;
-use super::interrupts::{fpga_calls, unexpected_interrupts};
+use super::interrupts::{fpga_calls, unexpected_interrupts, with_usb};
 use super::memory_map::{CLUSTER, FPGA_INTERRUPT};
 use super::readout::Readout;
 use super::reset_cause::ResetCause;
@@ -24,6 +24,7 @@ use crate::cortex_a9::global_timer::GlobalTimer;
 use crate::cortex_a9::start;
 use crate::intake::Intake;
 use crate::serial::{Console, Link};
+use crate::usb::{Service, tell};
 
 /// Frames after which a run is a good one, and failures before it count no more: ten seconds.
 const GOOD_RUN_FRAMES: u32 = 600;
@@ -127,7 +128,7 @@ impl ViewerBoard {
 
 impl Board for ViewerBoard {
     const NAME: &'static str = "de1-soc";
-    const LACKS: &'static str = "no USB yet: controls are KEY and SW, and the serial line";
+    const LACKS: &'static str = "controls on USB, KEY and SW, the serial line";
     const TICKS_PER_SECOND: u32 = CLUSTER.timer_hertz;
     type Console = Console<Uart16550>;
     type Port = BridgePort;
@@ -141,11 +142,24 @@ impl Board for ViewerBoard {
     }
 
     fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
-        let report = self.panel_report();
-        if self.told.replace(report) == Some(report) {
-            return 0;
+        let mut unreadable = 0;
+        while let Some(event) = with_usb(Service::next_event).flatten() {
+            if let Some(report) = event.report() {
+                unreadable += u32::from(intake.accept(report).is_err());
+            }
+            let _ = tell(&event, &mut self.console);
         }
-        intake.accept(Report::Panel(&report.to_bytes())).is_err().into()
+        if let Some(fault) = with_usb(Service::take_fault).flatten() {
+            self.count_fault();
+            let _ = writeln!(self.console, "usb: {fault}");
+        }
+        let report = self.panel_report();
+        if self.told.replace(report) != Some(report) {
+            unreadable += u32::from(intake.accept(Report::Panel(&report.to_bytes())).is_err());
+        }
+        let frozen = intake.state().frozen;
+        with_usb(|usb| usb.set_frozen(frozen));
+        unreadable
     }
 
     fn read_link(&mut self, buffer: &mut [u8]) -> usize {

@@ -90,7 +90,7 @@ impl Board {
 
             let controller = InterruptController::at(INTERRUPT_CONTROLLER);
             controller.configure();
-            let core = Dwc2Core::at(USB, USB_MEMORY, clock);
+            let core = Dwc2Core::at(USB, USB_MEMORY, clock, cortex_ar::asm::dsb);
             let usb = Service::new(&USB_ROOM, core, USB_CONFIG, clock).expect("the room is taken once");
             let ticker = clock.ticker(TICK_MICROSECONDS);
             interrupts::install(Sources { controller, ticker, link: link_interrupt, usb });

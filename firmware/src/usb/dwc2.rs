@@ -25,13 +25,15 @@ pub struct Dwc2Core<T> {
     registers: Registers<Offset>,
     memory: NonNull<[u8; DMA_BYTES]>,
     clock: T,
+    barrier: fn(),
 }
 
 // SAFETY: the core owns its device and its memory.
 unsafe impl<T: Send> Send for Dwc2Core<T> {}
 
 impl<T: Now> Dwc2Core<T> {
-    /// Returns the core whose registers are at `address`, with its DMA memory.
+    /// Returns the core whose registers are at `address`, with its DMA memory. `barrier` returns when all stores
+    /// to the memory have arrived there, and no load from it has been made early.
     ///
     /// # Safety
     /// - A DWC2 core answers at `address`, out of reset, and no other driver writes to it.
@@ -41,12 +43,12 @@ impl<T: Now> Dwc2Core<T> {
     /// # Panics
     /// When `memory` is 0 or not on a cache line ([`LINE_BYTES`]).
     #[must_use]
-    pub unsafe fn at(address: usize, memory: usize, clock: T) -> Self {
+    pub unsafe fn at(address: usize, memory: usize, clock: T, barrier: fn()) -> Self {
         assert!(memory.is_multiple_of(LINE_BYTES), "DMA memory starts on a cache line");
         let memory = NonNull::new(core::ptr::with_exposed_provenance_mut(memory));
         // SAFETY: the caller's promise is the same.
         let registers = unsafe { Registers::at(address) };
-        Self { registers, memory: memory.expect("DMA memory is not at address 0"), clock }
+        Self { registers, memory: memory.expect("DMA memory is not at address 0"), clock, barrier }
     }
 
     /// Returns where `length` bytes from `offset` lie.
@@ -94,12 +96,12 @@ impl<T: Now> dwc2_host::DmaMemory for Dwc2Core<T> {
     /// Orders what was stored before the register that starts the transfer: one is Normal memory, the
     /// other Device memory.
     fn clean(&mut self, _: usize, _: usize) {
-        core::sync::atomic::fence(core::sync::atomic::Ordering::SeqCst);
+        (self.barrier)();
     }
 
     /// Orders the register that tells a transfer's end before what is loaded after.
     fn invalidate(&mut self, _: usize, _: usize) {
-        core::sync::atomic::fence(core::sync::atomic::Ordering::SeqCst);
+        (self.barrier)();
     }
 }
 

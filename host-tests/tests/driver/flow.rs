@@ -18,7 +18,7 @@ fn status_is_read_once_a_refill() {
     assert!(matches!(journal[1], Access::Read(Register::Status, 1024)), "{:?}", journal[1]);
     // The FIFO is full: the next word finds none free, waits, and finds what has drained.
     renderer.push(&[7]).expect("it drains");
-    let clear = Access::Write(Register::Interrupts, Interrupts::default().with_low_water(true).0);
+    let clear = Access::Write(Register::Interrupts, EVERY_INTERRUPT);
     let expected = [
         clear.clone(),
         Access::Read(Register::Status, 0),
@@ -35,7 +35,7 @@ fn the_stream_arrives_word_for_word_and_never_overflows() {
     let mut rng = Rng(61);
     for round in 0..150 {
         let behaviour = Behaviour {
-            fifo_depth: rng.pick(&[22, 23, 31, 64, 100, 1024]),
+            fifo_depth: rng.pick(&[34, 35, 43, 64, 100, 1024]),
             words_per_microsecond: rng.pick(&[1, 2, 3, 25]),
             interrupt: rng.once_in(2),
             ..Behaviour::default()
@@ -143,16 +143,16 @@ fn an_interrupt_that_comes_before_the_wait_is_not_lost() {
         }
     }
 
-    let mock = Mock::new(Behaviour { fifo_depth: 22, words_per_microsecond: 1, ..Behaviour::default() });
+    let mock = Mock::new(Behaviour { fifo_depth: 34, words_per_microsecond: 1, ..Behaviour::default() });
     let mut renderer = Renderer::new(Draining(mock.clone()), Interrupted(mock.clone()), Timeouts::default())
         .expect("the device starts");
-    // From 22 words down to 12: one above the mark of 11.
-    renderer.push(&fences(11)).expect("it fits");
-    mock.clone().wait(10);
+    // From 34 words down to 18: one above the mark of 17.
+    renderer.push(&fences(17)).expect("it fits");
+    mock.clone().wait(16);
     mock.take_journal();
-    renderer.push(&fences(6)).expect("it drains");
+    renderer.push(&fences(9)).expect("it drains");
     let waited = waited_us(&mock.take_journal());
-    assert!(waited <= 30, "waited {waited} µs for 12 words that leave at one a microsecond");
+    assert!(waited <= 45, "waited {waited} µs for 18 words that leave at one a microsecond");
 }
 
 #[test]
@@ -198,10 +198,10 @@ impl Wait for Trickling {
 #[test]
 fn a_fifo_that_takes_a_word_in_time_is_waited_for() {
     for (period_us, patient) in [(99_000, true), (101_000, false)] {
-        let mock = Mock::new(Behaviour { fifo_depth: 22, words_per_microsecond: 0, ..Behaviour::default() });
+        let mock = Mock::new(Behaviour { fifo_depth: 34, words_per_microsecond: 0, ..Behaviour::default() });
         let wait = Trickling { mock: mock.clone(), period_us, waited_us: 0 };
         let mut renderer = Renderer::new(mock.clone(), wait, Timeouts::default()).expect("the device starts");
-        let words = fences(16);
+        let words = fences(24);
         let result = renderer.push(&words);
         assert_eq!(result.is_ok(), patient, "a word every {period_us} µs: {result:?}");
         assert_eq!(mock.stream() == words, patient);

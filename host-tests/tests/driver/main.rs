@@ -9,6 +9,9 @@ use fpga_regs::packet::Fence;
 use fpga_regs::registers::Register;
 use fpga_regs::{RenderError, Renderer, Timeouts};
 
+/// What is written to INTERRUPTS before a look: a one for each of the four.
+const EVERY_INTERRUPT: u32 = 0b1111;
+
 fn started(behaviour: Behaviour) -> (Mock, Renderer<Mock, Mock>) {
     let mock = Mock::new(behaviour);
     let renderer =

@@ -1,7 +1,7 @@
 //! Errors, the way back from them, and fences.
 
 use fpga_regs::packet::swap;
-use fpga_regs::registers::{Control, Errors, Interrupts};
+use fpga_regs::registers::{Control, Errors, ID_HALF};
 use fpga_regs::screen::Rgb332;
 
 use super::*;
@@ -32,12 +32,11 @@ fn a_reset_is_the_way_back_from_every_error() {
     mock.raise(Errors::default().with_bad_packet(true));
     mock.take_journal();
     renderer.reset().expect("it resets");
-    let control = Control::default().with_enable(true).with_low_water_interrupt(true).with_fence_interrupt(true);
     let expected = [
         Access::Write(Register::Control, Control::default().with_reset(true).0),
         Access::Read(Register::Control, 0),
         Access::Write(Register::LowWater, 512),
-        Access::Write(Register::Control, control.0),
+        Access::Write(Register::Control, 0xF01),
     ];
     assert_eq!(mock.take_journal(), expected);
     mock.behave(|behaviour| behaviour.words_per_microsecond = 25);
@@ -49,6 +48,24 @@ fn a_reset_is_the_way_back_from_every_error() {
     assert_eq!(mock.stream(), expected, "the stream begins anew");
 }
 
+/// An FPGA that was configured again is not believed to be the one that it was.
+#[test]
+fn a_restart_looks_at_the_device_as_the_start_did() {
+    let (mock, mut renderer) = started(Behaviour::default());
+    mock.behave(|behaviour| behaviour.manager_mode = 2);
+    mock.take_journal();
+    assert!(matches!(renderer.restart(), Err(RenderError::NotConfigured(_))));
+    assert_eq!(mock.take_journal(), [Access::Configured]);
+    mock.behave(|behaviour| behaviour.manager_mode = 4);
+    mock.answer(Register::Id, 7);
+    assert_eq!(renderer.restart(), Err(RenderError::WrongId { found: 7 }));
+    mock.answer(Register::Id, ID_HALF);
+    mock.answer(Register::Capabilities, 1 << 24 | 4 << 16 | 512);
+    renderer.restart().expect("it is ours");
+    assert_eq!((renderer.capabilities().pixel_units(), renderer.capabilities().fifo_depth()), (4, 512));
+    assert!(mock.take_journal().contains(&Access::Write(Register::LowWater, 256)));
+}
+
 #[test]
 fn after_a_reset_the_space_is_looked_up_again() {
     let (mock, mut renderer) = started(Behaviour::default());
@@ -56,7 +73,7 @@ fn after_a_reset_the_space_is_looked_up_again() {
     renderer.reset().expect("it resets");
     mock.take_journal();
     renderer.push(&[3]).expect("there is room");
-    let clear = Access::Write(Register::Interrupts, Interrupts::default().with_low_water(true).0);
+    let clear = Access::Write(Register::Interrupts, EVERY_INTERRUPT);
     assert_eq!(mock.take_journal(), [clear, Access::Read(Register::Status, 1024), Access::Push(vec![3])]);
 }
 
@@ -68,7 +85,7 @@ fn stopping_idles_the_device() {
 }
 
 #[test]
-fn a_fence_is_waited_for_and_its_interrupt_cleared_before_each_look() {
+fn a_fence_is_waited_for_and_every_interrupt_cleared_before_each_look() {
     let (mock, mut renderer) = started(Behaviour { words_per_microsecond: 1, ..Behaviour::default() });
     let first = renderer.fence().expect("there is room");
     let second = renderer.fence().expect("there is room");
@@ -76,7 +93,7 @@ fn a_fence_is_waited_for_and_its_interrupt_cleared_before_each_look() {
     mock.take_journal();
     renderer.wait_fence(second).expect("it drains");
     let status = 1024 - 4;
-    let clear = Access::Write(Register::Interrupts, Interrupts::default().with_fence(true).0);
+    let clear = Access::Write(Register::Interrupts, EVERY_INTERRUPT);
     let expected = [
         clear.clone(),
         Access::Read(Register::Fence, 0),

@@ -13,7 +13,7 @@ fn the_start_is_this_and_nothing_else() {
     let screen = HEIGHT << 16 | WIDTH;
     let capabilities = 1 << 24 | 1 << 16 | 1024;
     Renderer::new(mock.clone(), mock.clone(), Timeouts::default()).expect("the device is as it should be");
-    // Reset is bit 1; enable bit 0, low-water interrupt bit 8, fence interrupt bit 10.
+    // Reset is bit 1; enable bit 0, the four interrupts bits 8 to 11.
     let expected = [
         Access::Configured,
         Access::Read(Register::Id, ID_HALF),
@@ -23,7 +23,7 @@ fn the_start_is_this_and_nothing_else() {
         Access::Write(Register::Control, 0x002),
         Access::Read(Register::Control, 0),
         Access::Write(Register::LowWater, 512),
-        Access::Write(Register::Control, 0x501),
+        Access::Write(Register::Control, 0xF01),
     ];
     assert_eq!(*mock.journal(), expected);
 }
@@ -90,7 +90,7 @@ fn a_device_that_is_not_ours_is_read_up_to_where_it_differs_and_never_written() 
 
 #[test]
 fn a_newer_minor_version_and_the_smallest_fifo_will_do() {
-    let mock = Mock::new(Behaviour { fifo_depth: 22, ..Behaviour::default() });
+    let mock = Mock::new(Behaviour { fifo_depth: 34, ..Behaviour::default() });
     mock.answer(Register::Version, Version::default().with_major(VERSION_MAJOR).with_minor(999).0);
     assert!(Renderer::new(mock.clone(), mock.clone(), Timeouts::default()).is_ok());
 }

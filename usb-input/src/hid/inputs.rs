@@ -9,16 +9,16 @@ const USAGES_MAXIMUM: usize = 16;
 /// How deep PUSH goes.
 const STACK_DEPTH: usize = 4;
 
-/// What global items say, until they say otherwise.
-#[derive(Debug, Clone, Copy, Default)]
-struct Globals {
-    page: u16,
-    minimum: i32,
-    maximum: i32,
-    size: u32,
-    count: u32,
-    id: u8,
-}
+/// What global items say, until they say otherwise: by their tag.
+type Globals = [Item; 10];
+
+/// Which of the globals says what: a tag's high half.
+const PAGE: usize = 0;
+const MINIMUM: usize = 1;
+const MAXIMUM: usize = 2;
+const SIZE: usize = 7;
+const ID: usize = 8;
+const COUNT: usize = 9;
 
 /// What local items say, for the next main item.
 #[derive(Debug, Clone, Copy, Default)]
@@ -45,7 +45,7 @@ pub(super) struct Input<'a> {
     pub(super) maximum: i32,
     /// Each number is a control; else each holds a control's usage.
     pub(super) variable: bool,
-    page: u16,
+    page: u32,
     usages: &'a [u32],
     range: Option<(u32, u32)>,
 }
@@ -67,7 +67,7 @@ impl Input<'_> {
 }
 
 /// Reads a report descriptor and hands on what is input; returns the lengths of input reports.
-pub(super) fn inputs(descriptor: &[u8], mut each: impl FnMut(&Input<'_>)) -> Lengths {
+pub(super) fn inputs(descriptor: &[u8], each: &mut dyn FnMut(&Input<'_>)) -> Lengths {
     let mut globals = Globals::default();
     let mut locals = Locals::default();
     let mut stack = [Globals::default(); STACK_DEPTH];
@@ -75,14 +75,6 @@ pub(super) fn inputs(descriptor: &[u8], mut each: impl FnMut(&Input<'_>)) -> Len
     let mut lengths = Lengths::default();
     for item in Items(descriptor) {
         match item.tag {
-            Item::USAGE_PAGE => globals.page = item.value as u16,
-            Item::LOGICAL_MINIMUM => globals.minimum = item.signed(),
-            // A maximum below the minimum was meant without a sign: 0 to 255 in one byte.
-            Item::LOGICAL_MAXIMUM if item.signed() < globals.minimum => globals.maximum = item.value as i32,
-            Item::LOGICAL_MAXIMUM => globals.maximum = item.signed(),
-            Item::REPORT_SIZE => globals.size = item.value,
-            Item::REPORT_COUNT => globals.count = item.value,
-            Item::REPORT_ID => globals.id = item.value as u8,
             Item::PUSH => {
                 if let Some(slot) = stack.get_mut(pushed) {
                     *slot = globals;
@@ -96,40 +88,50 @@ pub(super) fn inputs(descriptor: &[u8], mut each: impl FnMut(&Input<'_>)) -> Len
             Item::USAGE => locals.push(item.value),
             Item::USAGE_MINIMUM => locals.first = Some(item.value),
             Item::USAGE_MAXIMUM => locals.last = Some(item.value),
-            Item::COLLECTION => {
-                if depth == 0 {
-                    application = on_page(locals.usages[0], globals.page);
+            tag if tag & Item::TYPE == Item::GLOBAL => {
+                if let Some(global) = globals.get_mut(usize::from(tag >> 4)) {
+                    *global = item;
                 }
-                depth = depth.saturating_add(1);
-                locals = Locals::default();
             }
-            Item::END_COLLECTION => {
-                depth = depth.saturating_sub(1);
-                locals = Locals::default();
-            }
-            Item::INPUT => {
-                let bits = globals.size.saturating_mul(globals.count);
-                if let Some(bit) = lengths.advance(globals.id, bits)
-                    && item.value & CONSTANT == 0
-                    && (1..=32).contains(&globals.size)
-                {
-                    each(&Input {
-                        application,
-                        id: globals.id,
-                        bit,
-                        size: globals.size,
-                        count: globals.count,
-                        minimum: globals.minimum,
-                        maximum: globals.maximum,
-                        variable: item.value & VARIABLE != 0,
-                        page: globals.page,
-                        usages: &locals.usages[..locals.count],
-                        range: locals.first.zip(locals.last),
-                    });
+            tag if tag & Item::TYPE == Item::MAIN => {
+                let [page, id] = [PAGE, ID].map(|which| globals[which].value);
+                match tag {
+                    Item::COLLECTION => {
+                        if depth == 0 {
+                            application = on_page(locals.usages[0], page);
+                        }
+                        depth = depth.saturating_add(1);
+                    }
+                    Item::END_COLLECTION => depth = depth.saturating_sub(1),
+                    Item::INPUT => {
+                        let [size, count] = [SIZE, COUNT].map(|which| globals[which].value);
+                        if let Some(bit) = lengths.advance(id as u8, size.saturating_mul(count))
+                            && item.value & CONSTANT == 0
+                            && (1..=32).contains(&size)
+                        {
+                            let minimum = globals[MINIMUM].signed();
+                            // A maximum below the minimum was meant without a sign: 0 to 255 in one byte.
+                            let signed = globals[MAXIMUM].signed();
+                            let maximum = if signed < minimum { globals[MAXIMUM].value as i32 } else { signed };
+                            each(&Input {
+                                application,
+                                id: id as u8,
+                                bit,
+                                size,
+                                count,
+                                minimum,
+                                maximum,
+                                variable: item.value & VARIABLE != 0,
+                                page,
+                                usages: &locals.usages[..locals.count],
+                                range: locals.first.zip(locals.last),
+                            });
+                        }
+                    }
+                    _ => {}
                 }
                 locals = Locals::default();
             }
-            Item::OUTPUT | Item::FEATURE => locals = Locals::default(),
             _ => {}
         }
     }
@@ -141,8 +143,8 @@ const CONSTANT: u32 = 1;
 const VARIABLE: u32 = 1 << 1;
 
 /// Puts the page into a usage that brought none: the last one before the main item (HID 1.11 §6.2.2.8).
-fn on_page(usage: u32, page: u16) -> u32 {
-    if usage >> 16 == 0 { u32::from(page) << 16 | usage } else { usage }
+fn on_page(usage: u32, page: u32) -> u32 {
+    if usage >> 16 == 0 { page << 16 | usage } else { usage }
 }
 
 impl Locals {

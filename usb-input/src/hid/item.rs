@@ -1,7 +1,7 @@
 //! The items that a report descriptor is made of (HID 1.11 §6.2.2.2).
 
 /// An item: `tag` is its type and tag, as in its first byte without the length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Item {
     pub(super) tag: u8,
     /// Its data, 0 for none.
@@ -11,17 +11,13 @@ pub(super) struct Item {
 }
 
 impl Item {
+    /// The bits of a tag that tell its type.
+    pub(super) const TYPE: u8 = 0x0C;
+    pub(super) const MAIN: u8 = 0x00;
+    pub(super) const GLOBAL: u8 = 0x04;
     pub(super) const INPUT: u8 = 0x80;
-    pub(super) const OUTPUT: u8 = 0x90;
-    pub(super) const FEATURE: u8 = 0xB0;
     pub(super) const COLLECTION: u8 = 0xA0;
     pub(super) const END_COLLECTION: u8 = 0xC0;
-    pub(super) const USAGE_PAGE: u8 = 0x04;
-    pub(super) const LOGICAL_MINIMUM: u8 = 0x14;
-    pub(super) const LOGICAL_MAXIMUM: u8 = 0x24;
-    pub(super) const REPORT_SIZE: u8 = 0x74;
-    pub(super) const REPORT_ID: u8 = 0x84;
-    pub(super) const REPORT_COUNT: u8 = 0x94;
     pub(super) const PUSH: u8 = 0xA4;
     pub(super) const POP: u8 = 0xB4;
     pub(super) const USAGE: u8 = 0x08;
@@ -77,10 +73,10 @@ mod tests {
             items,
             [
                 (Item::END_COLLECTION, 0, 0),
-                (Item::USAGE_PAGE, 1, 1),
-                (Item::LOGICAL_MAXIMUM, 0x7FFF, 0x7FFF),
-                (Item::LOGICAL_MINIMUM, 0x8000_0000, i32::MIN),
-                (Item::LOGICAL_MINIMUM, 0x81, -127),
+                (0x04, 1, 1),
+                (0x24, 0x7FFF, 0x7FFF),
+                (0x14, 0x8000_0000, i32::MIN),
+                (0x14, 0x81, -127),
             ]
         );
     }

@@ -5,11 +5,11 @@ use super::inputs::Input;
 
 const KEYBOARD_PAGE: u32 = 0x07;
 /// Left Control; seven more modifiers follow.
-const FIRST_MODIFIER: u16 = 0xE0;
-const LAST_MODIFIER: u16 = 0xE7;
+const FIRST_MODIFIER: u32 = 0xE0;
+const LAST_MODIFIER: u32 = 0xE7;
 /// Usages from here up to the first key are errors: too many keys, or a fault (HID Usage Tables, page 0x07).
-const FIRST_ERROR: u16 = 0x01;
-const FIRST_KEY: u16 = 0x04;
+const FIRST_ERROR: u32 = 0x01;
+const FIRST_KEY: u32 = 0x04;
 const BOOT_LENGTH: usize = 8;
 /// Bitmaps of keys that are kept: modifiers and the other keys, with room for one that is split.
 const BITMAPS_MAXIMUM: usize = 3;
@@ -32,7 +32,8 @@ struct Bitmap {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct List {
-    first: Field,
+    /// The first of them.
+    field: Field,
     count: u16,
     /// The usage that the least value stands for.
     usage: u16,
@@ -41,7 +42,7 @@ struct List {
 impl KeyboardLayout {
     /// Tells whether it has any keys.
     pub(super) fn is_usable(&self) -> bool {
-        self.list.is_some() || self.bitmaps.iter().flatten().any(|bitmap| bitmap.first < FIRST_MODIFIER)
+        self.list.is_some() || self.bitmaps.iter().flatten().any(|bitmap| u32::from(bitmap.first) < FIRST_MODIFIER)
     }
 
     /// Takes in an item if it is about keys, and tells whether it is.
@@ -58,9 +59,8 @@ impl KeyboardLayout {
             }
         } else if !input.variable {
             let Input { bit, size, minimum, maximum, .. } = *input;
-            let first_field = Field { bit, size, minimum, maximum };
-            let count = input.count.min(0x100) as u16;
-            self.list = self.list.or(Some(List { first: first_field, count, usage: first as u16 }));
+            let (field, count) = (Field { bit, size, minimum, maximum }, input.count.min(0x100) as u16);
+            self.list = self.list.or(Some(List { field, count, usage: first as u16 }));
         }
         true
     }
@@ -68,35 +68,53 @@ impl KeyboardLayout {
     /// Translates a report, without its id, to a boot keyboard's; keys beyond six are left out. If it says that it
     /// cannot tell which keys are down, so does the translation.
     pub(crate) fn boot_report(&self, report: &[u8]) -> [u8; BOOT_LENGTH] {
-        let mut boot = [0; BOOT_LENGTH];
-        let (mut free, mut unknown) = (2, false);
-        let mut press = |usage: u16| match usage {
-            FIRST_MODIFIER..=LAST_MODIFIER => boot[0] |= 1 << (usage - FIRST_MODIFIER),
-            FIRST_KEY..=0xFF if free < BOOT_LENGTH && !boot[2..free].contains(&(usage as u8)) => {
-                boot[free] = usage as u8;
-                free += 1;
-            }
-            FIRST_ERROR..FIRST_KEY => unknown = true,
-            _ => {}
-        };
+        let mut keys = Keys { report: [0; BOOT_LENGTH], count: 0, unknown: false };
         for bitmap in self.bitmaps.iter().flatten() {
-            let held = |index: &u16| bits(report, bitmap.bit.saturating_add(u32::from(*index)), 1) == Some(1);
-            (0..bitmap.count).filter(held).for_each(|index| press(bitmap.first.saturating_add(index)));
-        }
-        if let Some(List { first, count, usage }) = self.list {
-            for index in 0..u32::from(count) {
-                let field = Field { bit: first.bit.saturating_add(index.saturating_mul(first.size)), ..first };
-                let Some(value) = field.read(report).filter(|value| (first.minimum..=first.maximum).contains(value))
-                else {
-                    continue;
-                };
-                let key = (i64::from(value) - i64::from(first.minimum)).saturating_add(i64::from(usage));
-                press(u16::try_from(key).unwrap_or(0));
+            for index in 0..u32::from(bitmap.count) {
+                if bits(report, bitmap.bit.saturating_add(index), 1) == Some(1) {
+                    keys.press(u32::from(bitmap.first) + index);
+                }
             }
         }
-        if unknown {
-            boot[2..].fill(FIRST_ERROR as u8);
+        if let Some(List { mut field, count, usage }) = self.list {
+            for _ in 0..count {
+                if let Some(value) = field.read(report).filter(|value| (field.minimum..=field.maximum).contains(value))
+                {
+                    keys.press(u32::from(usage).saturating_add(value.wrapping_sub(field.minimum) as u32));
+                }
+                field.bit = field.bit.saturating_add(field.size);
+            }
         }
-        boot
+        if keys.unknown {
+            keys.report[2..].fill(FIRST_ERROR as u8);
+        }
+        keys.report
+    }
+}
+
+/// A boot keyboard's report, as it is being made.
+struct Keys {
+    report: [u8; BOOT_LENGTH],
+    count: usize,
+    /// It cannot tell which keys are down.
+    unknown: bool,
+}
+
+impl Keys {
+    /// Presses the key of a usage, if it is one.
+    #[inline(never)]
+    fn press(&mut self, usage: u32) {
+        let (used, free) = self.report[2..].split_at_mut(self.count);
+        match usage {
+            FIRST_MODIFIER..=LAST_MODIFIER => self.report[0] |= 1 << (usage - FIRST_MODIFIER),
+            FIRST_ERROR..FIRST_KEY => self.unknown = true,
+            FIRST_KEY..=0xFF if !used.contains(&(usage as u8)) => {
+                if let Some(place) = free.first_mut() {
+                    *place = usage as u8;
+                    self.count += 1;
+                }
+            }
+            _ => {}
+        }
     }
 }

@@ -33,7 +33,7 @@ impl Layout {
         let (mut keyboard, mut keyboard_id) = (KeyboardLayout::default(), None);
         let (mut pad, mut pad_id) = (PadLayout::default(), None);
         // What is of use is in one report: the first that has any.
-        let lengths = inputs(descriptor, |input| {
+        let lengths = inputs(descriptor, &mut |input| {
             let of_use = |id: Option<u8>| id.is_none_or(|id| id == input.id);
             match input.application {
                 KEYBOARD | KEYPAD if of_use(keyboard_id) && keyboard.add(input) => keyboard_id = Some(input.id),

@@ -10,6 +10,8 @@ const BUTTON_PAGE: u16 = 0x09;
 const X: u16 = 0x30;
 const RZ: u16 = 0x35;
 const HAT: u16 = 0x39;
+/// Where a stick rests.
+const CENTRE: u8 = 0x80;
 /// No button there.
 const NOWHERE: u32 = u32::MAX;
 
@@ -55,35 +57,38 @@ impl PadLayout {
 
     /// Takes in an item if it is about a stick, a hat or buttons, and tells whether it is.
     pub(super) fn add(&mut self, input: &Input<'_>) -> bool {
-        let before = *self;
-        if input.variable {
-            self.add_numbers(input);
+        let mut of_use = false;
+        if !input.variable {
+            return of_use;
         }
-        *self != before
-    }
-
-    fn add_numbers(&mut self, input: &Input<'_>) {
+        let mut bit = input.bit;
         // More numbers in one item than usages of interest need not be looked at.
         for index in 0..input.count.min(0x100) {
             let Some(usage) = input.usage(index) else { break };
-            let Some(bit) = input.bit.checked_add(index.saturating_mul(input.size)) else { break };
-            let field = Field { bit, size: input.size, minimum: input.minimum, maximum: input.maximum };
-            match ((usage >> 16) as u16, usage as u16) {
-                (DESKTOP_PAGE, axis @ X..=RZ) => {
-                    let slot = &mut self.axes[usize::from(axis - X)];
-                    *slot = slot.or(Some(field));
+            let number = usage as u16;
+            match (usage >> 16) as u16 {
+                DESKTOP_PAGE => {
+                    let slot = match number {
+                        X..=RZ => Some(&mut self.axes[usize::from(number - X)]),
+                        HAT => Some(&mut self.hat),
+                        _ => None,
+                    };
+                    if let Some(slot @ None) = slot {
+                        *slot = Some(Field { bit, size: input.size, minimum: input.minimum, maximum: input.maximum });
+                        of_use = true;
+                    }
                 }
-                (DESKTOP_PAGE, HAT) => self.hat = self.hat.or(Some(field)),
-                (BUTTON_PAGE, number @ 1..) => {
-                    if let Some(slot) = self.buttons.get_mut(usize::from(number) - 1)
-                        && *slot == NOWHERE
-                    {
+                BUTTON_PAGE => {
+                    if let Some(slot @ &mut NOWHERE) = self.buttons.get_mut(usize::from(number.wrapping_sub(1))) {
                         *slot = bit;
+                        of_use = true;
                     }
                 }
                 _ => {}
             }
+            bit = bit.saturating_add(input.size);
         }
+        of_use
     }
 
     /// Reads a report, without its id.
@@ -91,15 +96,19 @@ impl PadLayout {
     /// The right stick is Z and Rz, or Rx and Ry on a pad without these two. Acceleration is that of a pad that is held
     /// level, the battery is unknown: no usage tells them.
     pub(crate) fn read(&self, report: &[u8]) -> DualShock3Report {
-        let [x, y, z, rx, ry, rz] = self.axes;
-        let right = if z.is_some() && rz.is_some() { [z, rz] } else { [rx, ry] };
-        let stick = |axes: [Option<Field>; 2]| axes.map(|axis| axis.map_or(0x80, |axis| axis.read_byte(report)));
-        let down = |bit: u32| bit != NOWHERE && bits(report, bit, 1) == Some(1);
-        let held = self.buttons.iter().zip(BUTTONS).filter(|&(&bit, _)| down(bit)).map(|(_, button)| button);
+        let axis = |index: usize| self.axes[index].as_ref().map_or(CENTRE, |axis| axis.read_byte(report));
+        let [_, _, z, _, _, rz] = &self.axes;
+        let [right_x, right_y] = if z.is_some() && rz.is_some() { [2, 5] } else { [3, 4] };
+        let mut held = self.directions(report);
+        for (&bit, button) in self.buttons.iter().zip(BUTTONS) {
+            if bits(report, bit, 1) == Some(1) {
+                held = held.with(button);
+            }
+        }
         DualShock3Report {
-            held: held.collect::<Buttons>() | self.directions(report),
-            left_stick: stick([x, y]),
-            right_stick: stick(right),
+            held,
+            left_stick: [axis(0), axis(1)],
+            right_stick: [axis(right_x), axis(right_y)],
             battery: Battery::Unknown,
             acceleration: Acceleration::LEVEL,
         }
@@ -107,15 +116,18 @@ impl PadLayout {
 
     /// Reads the hat: eight directions clockwise from up, or four; anything else is its centre.
     fn directions(&self, report: &[u8]) -> Buttons {
-        use Button::{Down, Left, Right, Up};
-        const EIGHT: [&[Button]; 8] =
-            [&[Up], &[Up, Right], &[Right], &[Right, Down], &[Down], &[Down, Left], &[Left], &[Left, Up]];
-        let direction = self.hat.and_then(|hat| {
-            let step = i64::from(hat.read(report)?) - i64::from(hat.minimum);
-            let range = i64::from(hat.maximum) - i64::from(hat.minimum);
-            let eighths = if range == 3 { step.checked_mul(2)? } else { step };
-            EIGHT.get(usize::try_from(eighths).ok()?)
-        });
-        direction.map_or(Buttons::NONE, |buttons| buttons.iter().copied().collect())
+        const UP: u8 = 1 << 0;
+        const RIGHT: u8 = 1 << 1;
+        const DOWN: u8 = 1 << 2;
+        const LEFT: u8 = 1 << 3;
+        const EIGHT: [u8; 8] = [UP, UP | RIGHT, RIGHT, RIGHT | DOWN, DOWN, DOWN | LEFT, LEFT, LEFT | UP];
+        let Some((hat, value)) = self.hat.and_then(|hat| Some((hat, hat.read(report)?))) else {
+            return Buttons::NONE;
+        };
+        let step = value.wrapping_sub(hat.minimum) as usize;
+        let four = hat.maximum.wrapping_sub(hat.minimum) == 3;
+        let pressed = EIGHT.get(if four { step.saturating_mul(2) } else { step }).copied().unwrap_or(0);
+        // The pad's own four buttons are neighbours in this order.
+        Buttons::from_bits(u32::from(pressed) << Button::Up as u32)
     }
 }

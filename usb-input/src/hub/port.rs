@@ -6,7 +6,7 @@ use super::status::{Status, bit, feature};
 use crate::link::{Link, Next};
 use crate::setup::Setup;
 use crate::slots::{NotNow, SlotIndex};
-use crate::timing::{ATTEMPTS, PORT_DEBOUNCE_US, PORT_RESET_STEP_US, PORT_RESET_TIMEOUT_US, RETRY_PAUSE_US};
+use crate::timing::{ATTEMPTS, Moment, Wait};
 use crate::{Fault, Memory, Step};
 
 /// One port.
@@ -16,7 +16,7 @@ pub(super) struct Port {
     /// Who is there, as far as it has been reset.
     device: Option<SlotIndex>,
     /// When who is there may be reset.
-    due_us: Option<u64>,
+    due: Option<Moment>,
     /// How often it was reset since it was plugged in.
     attempts: u8,
 }
@@ -36,11 +36,11 @@ pub(super) enum Task {
     Reset,
     /// Its reset lasts.
     Wait {
-        end_us: u64,
+        end: Moment,
     },
     /// It is asked whether its reset is over.
     Ask {
-        end_us: u64,
+        end: Moment,
     },
     /// The end of its reset is taken note of; the speed of who is there, if it is enabled.
     ClearReset {
@@ -58,7 +58,7 @@ impl Task {
 
 impl Port {
     pub(super) const fn new(number: u8) -> Self {
-        Self { number, device: None, due_us: None, attempts: 0 }
+        Self { number, device: None, due: None, attempts: 0 }
     }
 
     /// Returns what it wants done: who is there reset, or cut off.
@@ -66,11 +66,11 @@ impl Port {
         if let Some(device) = self.device {
             if memory.slots.has_failed(device) {
                 self.let_go(memory);
-                self.due_us = Some(memory.now_us() + RETRY_PAUSE_US);
+                self.due = Some(memory.after(Wait::RETRY_PAUSE));
             }
             return None;
         }
-        if !memory.has_come(self.due_us?) {
+        if !memory.has_come(self.due?) {
             return None;
         }
         let fault = match (self.attempts, link.place().below(self.number)) {
@@ -80,7 +80,7 @@ impl Port {
             (_, Some(place)) => match memory.slots.reserve(Some(link.slot), place) {
                 Ok(device) => {
                     self.device = Some(device);
-                    self.due_us = None;
+                    self.due = None;
                     self.attempts += 1;
                     return Some(Task::Reset);
                 }
@@ -88,7 +88,7 @@ impl Port {
                 Err(NotNow::NoRoom) => Fault::TooManyDevices,
             },
         };
-        self.due_us = None;
+        self.due = None;
         self.attempts = ATTEMPTS;
         Some(Task::Disable { fault })
     }
@@ -100,8 +100,8 @@ impl Port {
                 let next = link.read(memory, Step::Port, Setup::hub_status(self.number), Status::LENGTH);
                 return Some((next, task));
             }
-            Task::Wait { end_us } => {
-                return Some((Next::Until(memory.now_us() + PORT_RESET_STEP_US), Task::Ask { end_us }));
+            Task::Wait { end } => {
+                return Some((link.wait(memory, Wait::PORT_RESET_STEP), Task::Ask { end }));
             }
             Task::Clear { left: 0, port } => {
                 return self.looked(link, memory, port).map(|task| (Next::Again, task));
@@ -133,18 +133,18 @@ impl Port {
                 Some(Task::Clear { port, left: port.changes & bit::CHANGES })
             }
             Task::Clear { port, left } => Some(Task::Clear { port, left: left & (left - 1) }),
-            Task::Reset => Some(Task::Wait { end_us: memory.now_us() + PORT_RESET_TIMEOUT_US }),
-            Task::Ask { end_us } => {
+            Task::Reset => Some(Task::Wait { end: memory.after(Wait::PORT_RESET_TIMEOUT) }),
+            Task::Ask { end } => {
                 let port = status()?;
                 if port.has_changed(bit::RESET) {
                     // Another connection in between will be looked at as a change.
                     let steady = port.is(bit::CONNECTION) && !port.has_changed(bit::CONNECTION);
                     let speed = (steady && port.is(bit::ENABLE)).then(|| port.speed());
                     Some(Task::ClearReset { speed })
-                } else if memory.now_us() < end_us {
-                    Some(Task::Wait { end_us })
-                } else {
+                } else if memory.has_come(end) {
                     self.was_reset(link, memory, None)
+                } else {
+                    Some(Task::Wait { end })
                 }
             }
             Task::ClearReset { speed } => self.was_reset(link, memory, speed),
@@ -165,7 +165,7 @@ impl Port {
             }
             _ => {
                 self.let_go(memory);
-                self.due_us = Some(memory.now_us() + RETRY_PAUSE_US);
+                self.due = Some(memory.after(Wait::RETRY_PAUSE));
             }
         }
         None
@@ -174,15 +174,15 @@ impl Port {
     /// Acts on what the port said, all of which was taken note of.
     fn looked(&mut self, link: &Link, memory: &Memory, port: Status) -> Option<Task> {
         let connected = port.is(bit::CONNECTION);
-        let unnoticed = self.device.is_none() && self.due_us.is_none() && self.attempts == 0;
+        let unnoticed = self.device.is_none() && self.due.is_none() && self.attempts == 0;
         if port.has_changed(bit::CONNECTION) || unnoticed || !connected {
             self.let_go(memory);
             self.attempts = 0;
-            self.due_us = connected.then(|| memory.now_us() + PORT_DEBOUNCE_US);
+            self.due = connected.then(|| memory.after(Wait::PORT_DEBOUNCE));
         } else if port.has_changed(bit::ENABLE) && !port.is(bit::ENABLE) && self.device.is_some() {
             // The hub cut it off for what it did on the bus (§11.8.1).
             self.let_go(memory);
-            self.due_us = Some(memory.now_us() + RETRY_PAUSE_US);
+            self.due = Some(memory.after(Wait::RETRY_PAUSE));
         }
         if !port.has_changed(bit::OVER_CURRENT) {
             return None;

@@ -26,19 +26,12 @@ use anyhow::{Context, bail, ensure};
 use super::State;
 use crate::paths::{TemporaryFolder, workspace_root};
 use crate::progress::Progress;
-use crate::setup::{Packages, ensure_tool};
+use crate::setup::{Packages, ensure_tool, ensure_verilator};
 use script::{Interpreter, Kind};
 use verilog::Source;
 
 const TCL: Packages = Packages { apt: &["tcl"], dnf: &["tcl"], pacman: &["tcl"], brew: &["tcl-tk"] };
 const MAKE: Packages = Packages { apt: &["make"], dnf: &["make"], pacman: &["make"], brew: &["make"] };
-/// Verilator compiles what it simulates.
-const VERILATOR: Packages = Packages {
-    apt: &["verilator", "g++"],
-    dnf: &["verilator", "gcc-c++"],
-    pacman: &["verilator", "gcc"],
-    brew: &["verilator"],
-};
 
 /// A place in a file of the workspace.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,7 +77,7 @@ impl Tools {
     fn find(progress: &Progress) -> anyhow::Result<Self> {
         Ok(Self {
             tcl: Interpreter::new(ensure_tool("tclsh", &TCL, progress)?),
-            verilator: ensure_tool("verilator", &VERILATOR, progress)?,
+            verilator: ensure_verilator(progress)?,
             make: ensure_tool("make", &MAKE, progress)?,
         })
     }

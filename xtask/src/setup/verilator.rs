@@ -1,7 +1,7 @@
 //! Verilator, the C++ compiler that its output wants, and the library that its waves want.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, bail, ensure};
@@ -19,20 +19,21 @@ const ZLIB: Packages =
 /// Oldest that the design is built with.
 const OLDEST: [u32; 2] = [5, 6];
 
-/// Finds Verilator and a C++ compiler, or installs them.
+/// Finds Verilator and a C++ compiler, or installs them; returns where Verilator is.
 ///
 /// # Errors
 ///
 /// When one is missing and cannot be installed without asking, with the command to type; and when
 /// Verilator is too old.
-pub fn ensure_verilator(progress: &Progress) -> anyhow::Result<()> {
+pub fn ensure_verilator(progress: &Progress) -> anyhow::Result<PathBuf> {
     let program = ensure_tool("verilator", &VERILATOR, progress)?;
     ensure_tool(COMPILER, &COMPILERS, progress)?;
     let output = Command::new(&program)
         .arg("--version")
         .output()
         .with_context(|| format!("cannot start {}: install it again", program.display()))?;
-    check_version(&program, &String::from_utf8_lossy(&output.stdout))
+    check_version(&program, &String::from_utf8_lossy(&output.stdout))?;
+    Ok(program)
 }
 
 fn check_version(program: &Path, text: &str) -> anyhow::Result<()> {
