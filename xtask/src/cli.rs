@@ -122,6 +122,9 @@ pub struct RunArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Has the FPGA's design in Verilator draw, clock by clock, its picture from the VGA pins (de1-soc)
+    #[arg(long)]
+    pub rtl: bool,
     /// Opens no window; stops after --frames and leaves them in --output
     #[arg(long, requires = "frames", requires = "output")]
     pub headless: bool,
@@ -369,6 +372,7 @@ mod tests {
             "demo --board vexpress-a9",
             "demo --board raspi2b",
             "run --board raspi2b --pad s",
+            "run --board de1-soc --rtl",
             "run --board raspi2b --usb-host 054c:0268",
             "pad s --session f",
             "demo --dump w",

@@ -34,6 +34,14 @@ pub trait Machine {
     /// # Errors
     /// When the screen cannot be read, or shows what no framebuffer can hold.
     fn screen(&mut self) -> anyhow::Result<(u32, Picture)>;
+
+    /// Ends the machine.
+    ///
+    /// # Errors
+    /// When it does not end.
+    fn end(self: Box<Self>) -> anyhow::Result<()> {
+        Ok(())
+    }
 }
 
 /// Who is at the other end of the link.

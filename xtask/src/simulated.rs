@@ -117,6 +117,18 @@ enum Order<'a> {
     Send(&'a [u8]),
     Receive(u64),
     Screen(&'a Path),
+    Frames(u64),
+}
+
+/// What a board has done since power-on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub struct Done {
+    /// Frames shown.
+    pub frames: u64,
+    /// Virtual time, in nanoseconds.
+    pub nanoseconds: u64,
+    /// Instructions since the last reset.
+    pub instructions: u64,
 }
 
 /// What it answers.
@@ -125,6 +137,7 @@ enum Order<'a> {
 enum Answer {
     Done,
     Received(Vec<u8>),
+    Ran(Done),
     Failed(String),
 }
 
@@ -164,6 +177,17 @@ impl Running {
         self.order(&Order::Screen(file))?;
         let pixels = std::fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
         Picture::new(SCREEN[0], SCREEN[1], pixels)
+    }
+
+    /// Runs until so many frames were shown since power-on, and returns what was done by then.
+    ///
+    /// # Errors
+    /// When the simulator has stopped the firmware, or no frame came for long.
+    pub fn frames(&mut self, count: u64) -> anyhow::Result<Done> {
+        match self.order(&Order::Frames(count))? {
+            Answer::Ran(done) => Ok(done),
+            _ => bail!("the simulator answers something else than what was done"),
+        }
     }
 
     fn order(&mut self, order: &Order<'_>) -> anyhow::Result<Answer> {
