@@ -132,6 +132,12 @@ impl Caches {
         }
     }
 
+    /// Says that U-Boot has written its dirty lines back.
+    pub fn flush_loader(&self) {
+        self.loader_in_l1.store(false, Relaxed);
+        self.loader_in_l2.store(false, Relaxed);
+    }
+
     fn lists(&self) -> MutexGuard<'_, Lists> {
         self.lists.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -4,6 +4,7 @@ mod board;
 mod cargo;
 mod fpga;
 mod rtl;
+mod simulator;
 mod usb;
 
 use std::collections::HashMap;
@@ -77,6 +78,13 @@ const CHECKS: &[Check] = &[
         run: board::demonstration,
     },
     Check { name: "the demonstration on raspi2b equals the golden one", run: board::demonstration_on_raspi2b },
+    Check { name: "simulator: the image's demonstration equals the golden one", run: simulator::demonstration },
+    Check {
+        name: "simulator: and with the FPGA's design, from its VGA pins",
+        run: simulator::demonstration_on_the_design,
+    },
+    Check { name: "simulator: what goes wrong around the board is told and survived", run: simulator::faults },
+    Check { name: "simulator: clippy finds nothing in its window and its FPGA", run: |_| simulator::clippy() },
     Check { name: "a serial line that loses bytes costs what it carried, no more", run: board::lossy_line },
     Check { name: "the firmware reports faults and panics, and ends", run: board::faults },
     Check { name: "usb: a keyboard on the root port", run: usb::on_the_root_port },

@@ -18,8 +18,9 @@ use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::setup::ensure_verilator;
 
-/// The crate of the program, and the program.
-const CRATE: &str = "simulator";
+/// The crate of the program.
+pub const CRATE: &str = "simulator";
+/// The program.
 const PROGRAM: &str = "de1-soc-simulator";
 /// Pixel units of the design that the board has.
 const UNITS: u32 = 8;

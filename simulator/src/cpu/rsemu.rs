@@ -85,6 +85,9 @@ impl Cpu for Interpreter {
         self.arm.set_cpsr(0x13 | psr::I | psr::F | psr::A);
         self.arm.set_reg(13, start.stack);
         // U-Boot's `go` calls entry(argc, argv); it would come back to here.
+        for (register, value) in (0..).zip(start.arguments) {
+            self.arm.set_reg(register, value);
+        }
         self.arm.set_reg(14, start.vectors);
         self.arm.set_pc(start.entry);
     }

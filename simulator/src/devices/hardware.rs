@@ -38,6 +38,11 @@ pub enum ResetCause {
 }
 
 impl ResetCause {
+    /// Returns whether memory and the words for software are lost with the reset.
+    pub fn is_cold(self) -> bool {
+        self == Self::SoftwareCold
+    }
+
     /// Returns the bit of the reset manager's STAT.
     pub fn status_bit(self) -> u32 {
         match self {
@@ -84,7 +89,8 @@ pub struct Hardware {
     pub board_io: BoardIo,
     /// The USB controller and what is plugged in.
     pub usb: Usb,
-    clocks: ClockManager,
+    /// The clock manager.
+    pub clocks: ClockManager,
     system: SystemManager,
     l3: L3,
     scu: Scu,
@@ -133,7 +139,7 @@ impl Hardware {
         self.fpga_manager.restart();
         self.gic = Gic::default();
         self.clocks = ClockManager::default();
-        self.system = SystemManager::as_uboot_leaves_it();
+        self.system = self.system.after(cause);
         self.l3 = L3::default();
         self.scu = Scu::default();
         self.pl310 = Pl310::as_uboot_leaves_it();

@@ -1,0 +1,49 @@
+//! The start, from whatever U-Boot leaves.
+
+use crate::board::{Board, image};
+use simulator::time::in_milliseconds;
+use simulator::{Image, PowerOn};
+
+/// Longest time from the entry to the first frame, in milliseconds: the bar.
+const FIRST_FRAME: f64 = 300.0;
+/// Most bytes of code and constants: the bar.
+const IMAGE_BYTES: usize = 256 * 1024;
+
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn the_first_frame_comes_in_time() {
+    let mut board = Board::draws();
+    let time = in_milliseconds(board.machine.now());
+    println!("first frame {time:.1} ms after the entry");
+    assert!(time < FIRST_FRAME, "{time:.1} ms");
+    assert!(board.machine.console_text().contains("on the DE1-SoC, reset: power-on"));
+    board.frames(3);
+}
+
+/// U-Boot's script on the card loads the raw binary and turns the caches off; a person who types `go` does not, and a
+/// debugger loads the ELF file.
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn the_raw_binary_starts_with_u_boots_caches_off_and_shows_the_same() {
+    let screen = |power_on: PowerOn| {
+        let mut board = Board::start(power_on);
+        board.draws_again();
+        board.frames(2);
+        board.machine.screen().expect("nothing stops it").expect("a frame was shown")
+    };
+    let binary = image().to_binary();
+    assert!(binary.len() <= IMAGE_BYTES, "{} bytes", binary.len());
+    let script = screen(PowerOn::new(Image::from_binary(binary)).caches_off());
+    assert!(script == screen(PowerOn::new(image())), "the screens differ");
+}
+
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn two_runs_are_the_same() {
+    let run = || {
+        let mut board = Board::draws();
+        board.frames(2);
+        (board.machine.now(), board.machine.instructions(), board.machine.console().to_vec())
+    };
+    assert_eq!(run(), run());
+}
