@@ -13,7 +13,7 @@ use crate::machine::{Emulated, Machine, Simulated};
 use crate::progress::Progress;
 use crate::qemu::{ICOUNT_SHIFT, Qemu, QemuOptions};
 use crate::setup::{ensure_firmware_toolchain, ensure_qemu};
-use crate::simulated::{Design, Simulator};
+use crate::simulated::{Build, Design, Simulator};
 
 /// Builds the firmware for a board and starts it, so that every run is the same: in QEMU, or the DE1-SoC's in its
 /// simulator with `design` as its FPGA. What it says goes to `folder`.
@@ -46,7 +46,7 @@ pub fn simulator(
     progress: &Progress,
 ) -> anyhow::Result<(Simulator, PathBuf)> {
     let toolchain = ensure_firmware_toolchain(progress)?;
-    let simulator = Simulator::prepare(design, window, progress)?;
+    let simulator = Simulator::prepare(design, window, Build::Checked, progress)?;
     Ok((simulator, build_firmware(board, &[], &toolchain, progress)?))
 }
 

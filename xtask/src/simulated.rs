@@ -43,6 +43,15 @@ pub struct Simulator {
     design: Design,
 }
 
+/// How the program is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Build {
+    /// With checks of its own, as the tests are built.
+    Checked,
+    /// As quick as it gets.
+    Optimised,
+}
+
 /// What to run, and how.
 #[derive(Serialize)]
 struct Job<'a> {
@@ -57,7 +66,11 @@ impl Simulator {
     ///
     /// # Errors
     /// When something is missing and cannot be installed, or the build fails.
-    pub fn prepare(design: Design, window: bool, progress: &Progress) -> anyhow::Result<Self> {
+    pub fn prepare(design: Design, window: bool, build: Build, progress: &Progress) -> anyhow::Result<Self> {
+        let (profile, folder) = match build {
+            Build::Checked => ("dev", "debug"),
+            Build::Optimised => ("measure", "measure"),
+        };
         let mut features = Vec::new();
         if design == Design::Rtl {
             ensure_verilator(progress)?;
@@ -69,10 +82,10 @@ impl Simulator {
         let step = progress.step("building the board's simulator, which takes a minute the first time");
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.current_dir(workspace_root()).args(["build", "--package", CRATE, "--bin", PROGRAM]);
-        cargo.args(["--features", &features.join(",")]);
+        cargo.args(["--profile", profile, "--features", &features.join(",")]);
         cargo_build::run(cargo, "the simulator", &step)?;
         step.done();
-        Ok(Self { program: target_folder().join("debug").join(PROGRAM), design })
+        Ok(Self { program: target_folder().join(folder).join(PROGRAM), design })
     }
 
     /// Powers the board on, with `image` on its card; its console goes to `console`.

@@ -35,10 +35,17 @@ impl Board {
         Self { machine: power_on.start(), read: 0 }
     }
 
+    /// Turns a board on and waits until the program has found the FPGA. Its first frame is a while off.
+    pub fn connected() -> Self {
+        let mut board = Self::start(PowerOn::new(image()));
+        board.connects();
+        board
+    }
+
     /// Turns a board on and waits for its first frame.
     pub fn draws() -> Self {
-        let mut board = Self::start(PowerOn::new(image()));
-        board.draws_again();
+        let mut board = Self::connected();
+        board.first_frame();
         board
     }
 
@@ -61,10 +68,15 @@ impl Board {
         }
     }
 
+    /// Waits until the program has found the FPGA.
+    #[track_caller]
+    pub fn connects(&mut self) {
+        self.says(START, "bridges open");
+    }
+
     /// Waits for the first frame after a start.
     #[track_caller]
-    pub fn draws_again(&mut self) {
-        self.says(START, "bridges open");
+    pub fn first_frame(&mut self) {
         self.says(START, "first frame after");
     }
 
@@ -114,9 +126,10 @@ impl Board {
         flashes
     }
 
-    /// Presses the HPS key for a moment.
+    /// Presses the HPS key for a moment, once what is being said was said.
     #[track_caller]
     pub fn press_hps_key(&mut self) {
+        self.passes(30);
         self.machine.hardware(|hardware| hardware.set_hps_key(true));
         self.passes(5);
         self.machine.hardware(|hardware| hardware.set_hps_key(false));

@@ -19,7 +19,7 @@ fn a_bridge_that_does_not_answer_is_told_at_the_next_start_and_not_tried_again()
     assert_eq!(board.flashes(), 4);
     board.machine.hardware(|hardware| hardware.fpga.faults.hangs = false);
     board.press_hps_key();
-    board.draws_again();
+    board.connects();
 }
 
 #[test]

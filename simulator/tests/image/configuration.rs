@@ -29,8 +29,7 @@ fn it_is_waited_for_and_the_led_tells() {
     assert_eq!(board.machine.frames_shown(), 0);
     // Over JTAG, say.
     board.machine.set_fpga_configured(true);
-    board.draws_again();
-    board.frames(2);
+    board.connects();
 }
 
 #[test]
@@ -38,7 +37,7 @@ fn it_is_waited_for_and_the_led_tells() {
 fn the_program_configures_it_with_what_u_boot_loaded() {
     let mut board = Board::start(go(&bitstream()));
     board.says(100, "configuring the FPGA with 4001 bytes at 0x08000000");
-    board.draws_again();
+    board.connects();
 }
 
 #[test]
@@ -68,5 +67,5 @@ fn a_switch_that_keeps_the_processor_out_is_named() {
 fn words_behind_go_that_mean_nothing_change_nothing() {
     let mut board = Board::start(PowerOn::new(image()).arguments(&["rfb", "8000000"]));
     board.says(100, "argument `rfb` means nothing");
-    board.draws_again();
+    board.connects();
 }

@@ -11,19 +11,18 @@ const HOLE: u32 = 0x5000_0000;
 #[test]
 #[ignore = "needs the image: cargo xtask test --only simulator"]
 fn a_main_loop_that_stops_is_ended_by_the_watchdog_and_told_at_the_next_start() {
-    let mut board = Board::draws();
+    let mut board = Board::connected();
     board.machine.hang();
     board.resets(WATCHDOG, ResetCause::L4Watchdog(0));
     board.says(100, "reset: watchdog 0");
     board.says(100, "the watchdog reset the board: the main loop stopped (1 in a row)");
-    board.draws_again();
-    board.frames(2);
+    board.connects();
 }
 
 #[test]
 #[ignore = "needs the image: cargo xtask test --only simulator"]
 fn a_fault_is_reported_and_the_third_in_a_row_ends_it() {
-    let mut board = Board::draws();
+    let mut board = Board::connected();
     for count in 1..3 {
         board.machine.jump(HOLE);
         board.says(200, "prefetch abort: fetch from 0x50000000");
@@ -31,7 +30,7 @@ fn a_fault_is_reported_and_the_third_in_a_row_ends_it() {
         board.resets(100, ResetCause::SoftwareWarm);
         board.says(200, "reset: warm reset by software");
         board.says(200, &format!("the last run ended with a fault ({count} in a row)"));
-        board.says(200, "bridges open");
+        board.connects();
     }
     board.machine.jump(HOLE);
     board.says(200, "it happened too often: reset the board by hand");

@@ -9,25 +9,18 @@ const FIRST_FRAME: f64 = 300.0;
 /// Most bytes of code and constants: the bar.
 const IMAGE_BYTES: usize = 256 * 1024;
 
-#[test]
-#[ignore = "needs the image: cargo xtask test --only simulator"]
-fn the_first_frame_comes_in_time() {
-    let mut board = Board::draws();
-    let time = in_milliseconds(board.machine.now());
-    println!("first frame {time:.1} ms after the entry");
-    assert!(time < FIRST_FRAME, "{time:.1} ms");
-    assert!(board.machine.console_text().contains("on the DE1-SoC, reset: power-on"));
-    board.frames(3);
-}
-
 /// U-Boot's script on the card loads the raw binary and turns the caches off; a person who types `go` does not, and a
 /// debugger loads the ELF file.
 #[test]
 #[ignore = "needs the image: cargo xtask test --only simulator"]
-fn the_raw_binary_starts_with_u_boots_caches_off_and_shows_the_same() {
+fn elf_file_and_raw_binary_start_in_time_with_caches_on_and_off_and_show_the_same() {
     let screen = |power_on: PowerOn| {
         let mut board = Board::start(power_on);
-        board.draws_again();
+        board.connects();
+        assert!(board.machine.console_text().contains("on the DE1-SoC, reset: power-on"));
+        board.first_frame();
+        let time = in_milliseconds(board.machine.now());
+        assert!(time < FIRST_FRAME, "the first frame came after {time:.1} ms");
         board.frames(2);
         board.machine.screen().expect("nothing stops it").expect("a frame was shown")
     };
@@ -41,9 +34,9 @@ fn the_raw_binary_starts_with_u_boots_caches_off_and_shows_the_same() {
 #[ignore = "needs the image: cargo xtask test --only simulator"]
 fn two_runs_are_the_same() {
     let run = || {
-        let mut board = Board::draws();
-        board.frames(2);
-        (board.machine.now(), board.machine.instructions(), board.machine.console().to_vec())
+        let mut board = Board::connected();
+        board.passes(2);
+        (board.machine.now(), board.machine.instructions(), board.machine.registers(), board.machine.console().to_vec())
     };
     assert_eq!(run(), run());
 }

@@ -4,7 +4,8 @@ use crate::board::Board;
 use simulator::time::milliseconds;
 use simulator::{Event, Machine};
 
-const RETURN: u8 = 0x28;
+/// Changes the style.
+const TAB: u8 = 0x2B;
 
 #[test]
 #[ignore = "needs the image: cargo xtask test --only simulator"]
@@ -13,11 +14,11 @@ fn a_keyboard_pulled_out_in_a_transfer_holds_nothing_up_and_works_again_when_it_
     board.machine.hardware(|hardware| hardware.usb.plug_keyboard());
     board.says(1_500, "usb 1: keyboard");
     let press = |board: &Board| {
-        board.machine.hardware(|hardware| hardware.usb.keyboard().lock().function.press(RETURN));
+        board.machine.hardware(|hardware| hardware.usb.keyboard().lock().function.press(TAB));
     };
     press(&board);
-    board.says(300, "scene: torus");
-    board.machine.hardware(|hardware| hardware.usb.keyboard().lock().function.release(RETURN));
+    board.says(300, "style: ");
+    board.machine.hardware(|hardware| hardware.usb.keyboard().lock().function.release(TAB));
     board.passes(50);
     // The hub has the next report, and the controller has yet to fetch it in a later microframe.
     press(&board);
@@ -27,9 +28,9 @@ fn a_keyboard_pulled_out_in_a_transfer_holds_nothing_up_and_works_again_when_it_
     board.machine.hardware(|hardware| hardware.usb.unplug_keyboard());
     board.says(500, "usb 1: keyboard has gone");
     board.frames(10);
-    board.machine.hardware(|hardware| hardware.usb.keyboard().lock().function.release(RETURN));
+    board.machine.hardware(|hardware| hardware.usb.keyboard().lock().function.release(TAB));
     board.machine.hardware(|hardware| hardware.usb.plug_keyboard());
     board.says(1_500, "usb 1: keyboard");
     press(&board);
-    board.says(300, "scene: ");
+    board.says(300, "style: ");
 }

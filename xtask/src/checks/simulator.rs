@@ -10,7 +10,7 @@ use crate::demo;
 use crate::golden::{self, Golden};
 use crate::machine::Simulated;
 use crate::session;
-use crate::simulated::{CRATE, Design, Simulator};
+use crate::simulated::{Build, CRATE, Design, Simulator};
 
 /// How many frames of each scene are drawn, from its first on: all 204 would take minutes. The plate's cost least.
 const ELF_FRAMES: [usize; 3] = [24, 6, 4];
@@ -60,7 +60,7 @@ fn play(state: &State, design: Design, image: &Path, frames: [usize; 3]) -> anyh
         part.frames.truncate(count);
     }
     parts.retain(|part| !part.frames.is_empty());
-    let simulator = Simulator::prepare(design, false, &state.progress)?;
+    let simulator = Simulator::prepare(design, false, Build::Checked, &state.progress)?;
     let mut machine = Simulated::start(&simulator, image, &state.folder("simulator"))?;
     let played = demo::play(&mut machine, &parts, &state.progress)?;
     golden

@@ -8,10 +8,13 @@ use anyhow::{Context, ensure};
 use crate::area;
 use crate::boot::Bootable;
 use crate::cli::{BenchArguments, Board};
+use crate::firmware_build::build_firmware;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
 use crate::session;
+use crate::setup::ensure_firmware_toolchain;
+use crate::simulated::{Build, Design, Simulator};
 use crate::table::{Column, Table};
 use crate::verilated::Verilated;
 
@@ -39,6 +42,15 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let step = progress.step("counting the FPGA's clocks");
     measurements.extend(verilated.bench()?);
     step.done();
+    let toolchain = ensure_firmware_toolchain(&progress)?;
+    let elf = build_firmware(Board::De1Soc, &[], &toolchain, &progress)?;
+    for design in [Design::Model, Design::Rtl] {
+        let simulator = Simulator::prepare(design, false, Build::Optimised, &progress)?;
+        let step = progress.step("timing the DE1-SoC's simulator");
+        let mut board = simulator.start(&elf, &target_folder().join("bench/console.txt"))?;
+        measurements.extend(measure::on_simulator(&mut board, design)?);
+        step.done();
+    }
     measurements.extend(area::measurements()?);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
