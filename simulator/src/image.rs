@@ -47,17 +47,6 @@ impl Image {
         Self { parts: vec![(LOAD_ADDRESS, bytes)] }
     }
 
-    /// Returns the raw binary that U-Boot loads: all parts at their distance, zeros between them.
-    pub fn to_binary(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        for (address, part) in &self.parts {
-            let start = (address - LOAD_ADDRESS) as usize;
-            bytes.resize(bytes.len().max(start + part.len()), 0);
-            bytes[start..start + part.len()].copy_from_slice(part);
-        }
-        bytes
-    }
-
     /// Reads an ELF file's loadable segments, at their physical addresses: what a raw binary made
     /// of it holds, too.
     ///

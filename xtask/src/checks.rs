@@ -1,10 +1,13 @@
 //! The steps of `cargo xtask test`: everything CI runs, the quick ones first.
 
 mod board;
+mod card;
 mod cargo;
 mod fpga;
+mod prove;
 mod rtl;
 mod simulator;
+mod uboot;
 mod usb;
 
 use std::collections::HashMap;
@@ -66,12 +69,16 @@ const CHECKS: &[Check] = &[
         name: "the FPGA's design equals the software model, with 1, 2, 4 and 8 pixel units",
         run: |_| rtl::tests(),
     },
+    Check { name: "theorems about the FPGA's design are proven", run: prove::theorems },
+    Check { name: "theorems about a broken design are not", run: prove::broken_designs },
     Check { name: "a wave of the FPGA's design shows its words", run: |_| rtl::waves() },
     Check { name: "this computer has a Rust toolchain for the boards", run: toolchain },
     Check { name: "this computer has QEMU", run: qemu },
     Check { name: "the firmware for de1-soc builds", run: |state| build(state, Board::De1Soc) },
     Check { name: "the firmware for vexpress-a9 builds", run: |state| build(state, Board::VexpressA9) },
     Check { name: "the firmware for raspi2b builds", run: |state| build(state, Board::Raspi2b) },
+    Check { name: "other people's tools read the card image", run: card::card },
+    Check { name: "U-Boot follows the script of the card image", run: uboot::follows_the_script },
     Check { name: "QEMU is handled well", run: |_| cargo::qemu_tests() },
     Check {
         name: "the demonstration on vexpress-a9 equals the golden one and this computer's own",

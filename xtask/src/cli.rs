@@ -1,6 +1,8 @@
 //! The command line: which commands there are, their flags, and what `--help` says.
 
 mod board;
+#[cfg(test)]
+mod tests;
 mod values;
 
 use std::fmt::Write as _;
@@ -16,10 +18,11 @@ pub use board::Board;
 pub use values::Rotation;
 
 /// The commands as `--help` groups them, in the order a newcomer meets them.
-const COMMAND_GROUPS: [(&str, &[&str]); 4] = [
+const COMMAND_GROUPS: [(&str, &[&str]); 5] = [
     ("See it work", &["demo", "run", "pad"]),
+    ("Put it on a board", &["image"]),
     ("Draw a picture on this computer", &["render", "replay", "decode"]),
-    ("Check and measure", &["test", "bench", "area"]),
+    ("Check and measure", &["test", "bench", "prove", "area"]),
     ("Keep generated files fresh", &["generate"]),
 ];
 
@@ -63,6 +66,12 @@ pub enum Task {
     /// QEMU's usb-redir calls there. The session is played at 60 reports a second, and again when it
     /// is over, until Ctrl-C.
     Pad(PadArguments),
+    /// Makes what goes on the DE1-SoC's SD card, and the whole card as a file
+    ///
+    /// Leaves in target/de1-soc: halfspace-sd.img, the card; card/, what to copy onto a card that
+    /// starts already; and their parts. The same input gives the same bytes. U-Boot is built from
+    /// Debian's source package, which takes a minute the first time. README §Flash goes on from there.
+    Image(ImageArguments),
     /// Draws an OBJ model to a PNG file
     ///
     /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
@@ -88,6 +97,12 @@ pub enum Task {
     /// Counts the Cortex-A9's instructions in QEMU and the FPGA's clocks in Verilator, and times
     /// geometry and software model on this computer, as an optimised build: median of several runs.
     Bench(BenchArguments),
+    /// Proves theorems about the FPGA's design
+    ///
+    /// That the command FIFO loses nothing and that the traversal visits every covered pixel's tile
+    /// exactly once, at full size: Yosys makes the formulas, Bitwuzla decides them. Both come from PyPI
+    /// into target/setup; formulas and logs stay in target/prove. rtl/formal has the theorems.
+    Prove(ProveArguments),
     /// Counts what the FPGA's design takes of the device, with Yosys
     ///
     /// Writes the table into rtl/README.md; logs stay in target/area. Yosys maps to the Cyclone V's
@@ -152,6 +167,20 @@ pub struct PadArguments {
     /// Session to play instead of the demo's
     #[arg(long, value_name = "FILE")]
     pub session: Option<PathBuf>,
+}
+
+/// Flags of `image`.
+#[derive(Debug, Args)]
+pub struct ImageArguments {
+    /// FPGA image for the card: fpga/build/halfspace.rbf
+    #[arg(long, value_name = "FILE")]
+    pub rbf: Option<PathBuf>,
+    /// U-Boot with its preloader (u-boot-with-spl.sfp) instead of one that is built here
+    #[arg(long, value_name = "FILE")]
+    pub uboot: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Flags of `render`.
@@ -235,6 +264,14 @@ pub struct AreaArguments {
     pub units: Option<u32>,
 }
 
+/// Flags of `prove`.
+#[derive(Debug, Args)]
+pub struct ProveArguments {
+    /// Proves what depends on the number of pixel units for this number only
+    #[arg(long, value_name = "1|2|4|8", value_parser = parse_units)]
+    pub units: Option<u32>,
+}
+
 /// Flags of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
@@ -270,10 +307,12 @@ pub fn run() -> anyhow::Result<()> {
         Task::Test(arguments) => commands::test::run(arguments),
         Task::Run(arguments) => commands::run::run(arguments),
         Task::Pad(arguments) => commands::pad::run(arguments),
+        Task::Image(arguments) => commands::image::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
         Task::Bench(arguments) => commands::bench::run(arguments),
+        Task::Prove(arguments) => commands::prove::run(arguments),
         Task::Area(arguments) => commands::area::run(arguments),
         Task::Generate(arguments) => commands::generate::run(arguments),
     }
@@ -299,93 +338,4 @@ fn grouped_commands(command: &Command) -> String {
         text.push('\n');
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parse(line: &str) -> Result<Cli, clap::Error> {
-        Cli::try_parse_from(std::iter::once("xtask").chain(line.split_whitespace()))
-    }
-
-    #[test]
-    fn clap_finds_no_fault_in_the_definition() {
-        command().debug_assert();
-    }
-
-    #[test]
-    fn help_lists_every_command_once_with_its_line() {
-        let help = command().render_help().to_string();
-        for subcommand in Cli::command().get_subcommands() {
-            let name = subcommand.get_name();
-            let about = subcommand.get_about().expect("every command says what it does").to_string();
-            let line = format!("  {name:<10}{about}\n");
-            assert_eq!(help.matches(&line).count(), 1, "{name} in:\n{help}");
-            assert!(line.len() <= 96, "{name}'s line wraps on a usual terminal");
-        }
-        assert!(help.contains("Usage: cargo xtask"), "{help}");
-    }
-
-    #[test]
-    fn render_takes_all_its_flags() {
-        let line = "render m.obj -o o.png --rotate -20,30.5,0 --two-sided --dump w --triangles t --depth d";
-        let Task::Render(arguments) = parse(line).expect("a valid line").command else {
-            panic!("render is render");
-        };
-        assert_eq!(arguments.rotate, Some(Rotation { degrees: [-20.0, 30.5, 0.0] }));
-        assert!(arguments.two_sided && arguments.mvp.is_none());
-        assert!(parse("render m.obj -o o.png --rotate 1,2,3 --mvp f").is_err());
-        assert!(parse("render m.obj").is_err());
-    }
-
-    #[test]
-    fn headless_wants_frames_and_a_folder() {
-        assert!(parse("run").is_ok());
-        assert!(parse("run --headless --frames 3 --output d").is_ok());
-        assert!(parse("run --headless").is_err());
-        assert!(parse("run --frames 3").is_err());
-        assert!(parse("run --headless --frames 0 --output d").is_err());
-    }
-
-    #[test]
-    fn a_wave_wants_the_design_and_a_number_of_units_one_that_there_is() {
-        let Task::Replay(arguments) = parse("replay w -o o.png --rtl --wave f --from 7").expect("valid").command else {
-            panic!("replay is replay");
-        };
-        assert_eq!((arguments.units, arguments.from, arguments.clocks), (8, 7, 20_000));
-        assert!(parse("replay w -o o.png").is_ok());
-        assert!(parse("replay w -o o.png --rtl --units 4 --pins --wave f --clocks 9").is_ok());
-        for wrong in
-            ["--wave f", "--units 8", "--pins", "--rtl --from 1", "--rtl --clocks 5", "--rtl --wave f --clocks 0"]
-        {
-            assert!(parse(&format!("replay w -o o.png {wrong}")).is_err(), "{wrong}");
-        }
-        let message = parse("replay w -o o.png --rtl --units 3").expect_err("no such build").to_string();
-        assert!(message.contains("1, 2, 4 or 8 pixel units"), "{message}");
-    }
-
-    #[test]
-    fn the_other_commands_parse() {
-        for line in [
-            "demo",
-            "demo --board vexpress-a9",
-            "demo --board raspi2b",
-            "run --board raspi2b --pad s",
-            "run --board de1-soc --rtl",
-            "run --board raspi2b --usb-host 054c:0268",
-            "pad s --session f",
-            "demo --dump w",
-            "test",
-            "test --only usb",
-            "replay w -o o.png --depth d",
-            "decode w",
-            "bench --json",
-            "generate --check",
-            "generate --golden",
-        ] {
-            assert!(parse(line).is_ok(), "{line}");
-        }
-        assert!(parse("demo --board c64").is_err());
-    }
 }

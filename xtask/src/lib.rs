@@ -17,7 +17,10 @@
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`simulated`] | the DE1-SoC's simulator, as a program that is started |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
+//! | [`prove`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`card`] | what goes on the DE1-SoC's SD card |
+//! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
 //! | [`checks`] | the steps of `cargo xtask test` |
 //! | [`generated`] | the files that are written from one source and committed |
 //! | [`model`] | a model from a file as a mesh |
@@ -34,6 +37,7 @@ compile_error!("xtask talks to QEMU over Unix sockets: build it on Linux, macOS 
 
 pub mod area;
 pub mod boot;
+pub mod card;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;
@@ -42,6 +46,7 @@ pub mod console;
 pub mod demo;
 pub mod fake_pad;
 pub mod firmware_build;
+pub mod frame_model;
 pub mod generated;
 pub mod golden;
 pub mod log_decoder;
@@ -52,6 +57,7 @@ pub mod obj;
 pub mod paths;
 pub mod picture;
 pub mod progress;
+pub mod prove;
 pub mod qemu;
 pub mod qmp;
 pub mod render;

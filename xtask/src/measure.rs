@@ -15,6 +15,7 @@ use geometry::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::card::program::{BYTES_MAX, Program};
 use crate::machine::{Link, Machine};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport, verdict};
 use crate::session::{self, ScenePart};
@@ -48,6 +49,9 @@ pub struct Measurement {
     pub bar: Option<f64>,
     /// Which way is better.
     pub better: Better,
+    /// What else is to be said of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 /// Which way a number is better.
@@ -64,7 +68,7 @@ impl Measurement {
     /// Returns a figure without a bar, rounded to hundredths; less is better.
     pub fn new(name: &str, value: f64, unit: &str) -> Self {
         let value = (value * 100.0).round() / 100.0;
-        Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower }
+        Self { name: name.into(), value, unit: unit.into(), bar: None, better: Better::Lower, note: None }
     }
 
     /// Returns in words whether it reaches its bar, if it has one.
@@ -102,9 +106,20 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
             ..per("geometry.instructions_per_triangle", torus.instructions_per_triangle)
         },
         per("geometry.instructions_per_vertex", torus.instructions_per_vertex),
+        Measurement::new(
+            "geometry.drawn_share",
+            torus.triangles_drawn as f64 / torus.triangles_submitted.max(1) as f64,
+            "of the submitted",
+        ),
         per("geometry.instructions_per_large_triangle", plate.instructions_per_triangle),
         per("geometry.instructions_per_clipped_scene_triangle", tunnel.instructions_per_triangle),
     ])
+}
+
+/// Returns how large the DE1-SoC's program is: code and constants.
+pub fn image(program: &Program) -> Measurement {
+    let bytes = program.bytes.len() as f64;
+    Measurement { bar: Some(BYTES_MAX as f64), ..Measurement::new("de1_soc.image_bytes", bytes, "bytes") }
 }
 
 /// Starts the DE1-SoC in its simulator and returns how long its start takes, in its own time, and how many frames

@@ -5,20 +5,24 @@
 //! | needed | how it is had |
 //! | --- | --- |
 //! | the Rust target | see [`rust_target`]: rustup, or Debian's packages and a build of `core` |
-//! | Yosys | see [`yosys`]: a Python environment under the target folder |
+//! | Yosys, Bitwuzla | see [`python`]: a Python environment each, under the target folder |
+//! | U-Boot | see [`uboot`]: built from Debian's source package under the target folder |
 //! | QEMU, Verilator, a C++ compiler | see [`packages`]: apt as root or by `sudo -n`, else the command to type is told |
 //!
 //! Output of installers goes to `target/setup/*.log`; its end is shown when one fails. A lock
 //! file there lets a second `cargo xtask` wait until the first has done.
 
 mod debian_rust;
+mod headers;
 mod lock;
 mod logged;
 pub mod packages;
 mod privilege;
+mod python;
 pub mod rust_target;
+mod source_package;
+mod uboot;
 mod verilator;
-mod yosys;
 
 use std::env;
 use std::path::PathBuf;
@@ -26,10 +30,11 @@ use std::process::Command;
 
 use anyhow::{Context, bail};
 
-pub use packages::{Packages, ensure_tool, find_program};
+pub use packages::{Packages, ensure_file, ensure_tool, find_program};
+pub use python::{ensure_bitwuzla, ensure_yosys};
 pub use rust_target::{FirmwareToolchain, TARGET, ensure_firmware_toolchain};
+pub use uboot::{BuiltUBoot, ensure_uboot};
 pub use verilator::{ensure_verilator, ensure_wave_library};
-pub use yosys::ensure_yosys;
 
 use crate::progress::Progress;
 use crate::qemu::Display;

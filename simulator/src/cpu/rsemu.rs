@@ -130,6 +130,8 @@ impl Cpu for Interpreter {
     }
 
     fn disassemble(&self, address: u32) -> String {
-        self.arm.disassemble_virtual(address, 1, false).first().map(|line| line.to_string()).unwrap_or_default()
+        let listed = self.arm.disassemble_virtual(address, 1, false).first().map(|line| line.to_string());
+        // The library puts address and code before the instruction.
+        listed.and_then(|line| Some(line.split_once("  ")?.1.to_string())).unwrap_or_default()
     }
 }

@@ -10,16 +10,20 @@ use simulator::{Event, Image, Machine, PowerOn};
 const START: u64 = 300;
 /// Longest time that a frame may take, in milliseconds.
 const FRAME: u64 = 100;
-/// What names the image.
-const VARIABLE: &str = "HALFSPACE_IMAGE";
 
-/// Returns the image.
-///
-/// # Panics
-/// When nobody has built it.
+/// Returns the image, from its ELF file.
 pub fn image() -> Image {
-    let path = std::env::var_os(VARIABLE)
-        .unwrap_or_else(|| panic!("{VARIABLE} names no image: `cargo xtask test --only simulator` builds it"));
+    named("HALFSPACE_IMAGE")
+}
+
+/// Returns the image as the card has it, a raw binary.
+pub fn binary() -> Image {
+    named("HALFSPACE_BINARY")
+}
+
+fn named(variable: &str) -> Image {
+    let path = std::env::var_os(variable)
+        .unwrap_or_else(|| panic!("{variable} names no image: `cargo xtask test --only simulator` builds it"));
     Image::read(Path::new(&path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 

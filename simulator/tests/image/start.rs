@@ -1,13 +1,11 @@
 //! The start, from whatever U-Boot leaves.
 
-use crate::board::{Board, image};
+use crate::board::{Board, binary, image};
+use simulator::PowerOn;
 use simulator::time::in_milliseconds;
-use simulator::{Image, PowerOn};
 
 /// Longest time from the entry to the first frame, in milliseconds: the bar.
 const FIRST_FRAME: f64 = 300.0;
-/// Most bytes of code and constants: the bar.
-const IMAGE_BYTES: usize = 256 * 1024;
 
 /// U-Boot's script on the card loads the raw binary and turns the caches off; a person who types `go` does not, and a
 /// debugger loads the ELF file.
@@ -24,9 +22,7 @@ fn elf_file_and_raw_binary_start_in_time_with_caches_on_and_off_and_show_the_sam
         board.frames(2);
         board.machine.screen().expect("nothing stops it").expect("a frame was shown")
     };
-    let binary = image().to_binary();
-    assert!(binary.len() <= IMAGE_BYTES, "{} bytes", binary.len());
-    let script = screen(PowerOn::new(Image::from_binary(binary)).caches_off());
+    let script = screen(PowerOn::new(binary()).caches_off());
     assert!(script == screen(PowerOn::new(image())), "the screens differ");
 }
 

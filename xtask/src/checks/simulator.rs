@@ -1,10 +1,13 @@
 //! Steps that run the image that is flashed, in the DE1-SoC's simulator.
 
+use std::fs;
 use std::path::Path;
 
 use anyhow::Context;
 
 use super::{State, cargo};
+use crate::card::PROGRAM_NAME;
+use crate::card::program::Program;
 use crate::cli::Board;
 use crate::demo;
 use crate::golden::{self, Golden};
@@ -15,8 +18,9 @@ use crate::simulated::{Build, CRATE, Design, Simulator};
 /// How many frames of each scene are drawn, from its first on: all 204 would take minutes. The plate's cost least.
 const ELF_FRAMES: [usize; 3] = [24, 6, 4];
 const RTL_FRAMES: [usize; 3] = [3, 2, 1];
-/// What names the image to the tests of the crate.
+/// What names the image to the tests of the crate: the ELF file, and the program on the card.
 const IMAGE: &str = "HALFSPACE_IMAGE";
+const BINARY: &str = "HALFSPACE_BINARY";
 
 /// Features that the crate's other steps leave out.
 pub(super) fn clippy() -> anyhow::Result<()> {
@@ -28,9 +32,13 @@ pub(super) fn clippy() -> anyhow::Result<()> {
 
 /// The tests that start the board with the image and break something.
 pub(super) fn faults(state: &mut State) -> anyhow::Result<()> {
+    let (folder, elf) = (state.folder("simulator"), image(state)?);
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let binary = folder.join(PROGRAM_NAME);
+    fs::write(&binary, Program::read(elf)?.bytes).with_context(|| format!("cannot write {}", binary.display()))?;
     cargo::run_with(
         &["test", "--quiet", "--package", CRATE, "--test", "image", "--", "--include-ignored"],
-        &[(IMAGE, image(state)?)],
+        &[(IMAGE, elf), (BINARY, &binary)],
         "the failed test is named above",
     )
 }

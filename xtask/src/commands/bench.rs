@@ -7,8 +7,10 @@ use anyhow::{Context, ensure};
 
 use crate::area;
 use crate::boot::Bootable;
+use crate::card::program::Program;
 use crate::cli::{BenchArguments, Board};
 use crate::firmware_build::build_firmware;
+use crate::frame_model;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
@@ -44,6 +46,7 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     step.done();
     let toolchain = ensure_firmware_toolchain(&progress)?;
     let elf = build_firmware(Board::De1Soc, &[], &toolchain, &progress)?;
+    measurements.push(measure::image(&Program::read(&elf)?));
     for design in [Design::Model, Design::Rtl] {
         let simulator = Simulator::prepare(design, false, Build::Optimised, &progress)?;
         let step = progress.step("timing the DE1-SoC's simulator");
@@ -51,7 +54,9 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         measurements.extend(measure::on_simulator(&mut board, design)?);
         step.done();
     }
+    let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
+    measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
@@ -86,7 +91,8 @@ fn table(measurements: &[Measurement]) -> Table {
     ]);
     for it in measurements {
         let bar = it.bar.map(|bar| format!("{bar}")).unwrap_or_default();
-        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, it.verdict().unwrap_or_default()]);
+        let remark = it.verdict().or(it.note.as_deref()).unwrap_or_default();
+        table.row([&it.name, &format!("{:.2}", it.value), &it.unit, &bar, remark]);
     }
     table
 }

@@ -69,6 +69,20 @@ pub fn ensure_tool(program: &str, packages: &Packages, progress: &Progress) -> a
     })
 }
 
+/// Finds a file that packages bring at one of `paths`, or installs them where that needs no question.
+///
+/// # Errors
+///
+/// As [`ensure_tool`].
+pub fn ensure_file(what: &str, paths: &[&str], packages: &Packages, progress: &Progress) -> anyhow::Result<PathBuf> {
+    let find = || paths.iter().map(PathBuf::from).find(|path| path.is_file());
+    if let Some(path) = find() {
+        return Ok(path);
+    }
+    install(what, packages, progress)?;
+    find().with_context(|| format!("{} is not there although its packages are installed", paths.join(" or ")))
+}
+
 /// Installs `packages`; `what` is how messages call them.
 pub(super) fn install(what: &str, packages: &Packages, progress: &Progress) -> anyhow::Result<()> {
     let lock = SetupLock::take(progress)?;

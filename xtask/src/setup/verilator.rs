@@ -1,11 +1,11 @@
 //! Verilator, the C++ compiler that its output wants, and the library that its waves want.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use anyhow::{Context, bail, ensure};
 
+use super::headers::has_header;
 use super::packages::{self, Packages, ensure_tool};
 use crate::progress::Progress;
 
@@ -61,30 +61,14 @@ fn version(text: &str) -> Option<[u32; 2]> {
 ///
 /// As [`ensure_verilator`].
 pub fn ensure_wave_library(progress: &Progress) -> anyhow::Result<()> {
-    if has_header("zlib.h")? {
+    if has_header(COMPILER, "c++", "zlib.h")? {
         return Ok(());
     }
     packages::install("zlib.h", &ZLIB, progress)?;
-    if !has_header("zlib.h")? {
+    if !has_header(COMPILER, "c++", "zlib.h")? {
         bail!("`{COMPILER}` finds no zlib.h although its packages are installed\n{}", ZLIB.instructions());
     }
     Ok(())
-}
-
-/// Asks the C++ compiler whether it finds a header.
-fn has_header(name: &str) -> anyhow::Result<bool> {
-    let mut compiler = Command::new(COMPILER)
-        .args(["-E", "-x", "c++", "-"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .with_context(|| format!("cannot start {COMPILER}: install it\n{}", COMPILERS.instructions()))?;
-    if let Some(mut input) = compiler.stdin.take() {
-        // A compiler that does not read says so by its status.
-        let _ = writeln!(input, "#include <{name}>");
-    }
-    Ok(compiler.wait().context("cannot wait for the C++ compiler")?.success())
 }
 
 #[cfg(test)]

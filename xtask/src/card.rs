@@ -1,0 +1,103 @@
+//! What goes on the DE1-SoC's SD card, and the whole card as one file.
+//!
+//! | module | its one idea |
+//! | --- | --- |
+//! | [`program`] | the firmware's ELF file as the bytes that U-Boot loads |
+//! | [`script`] | what U-Boot does with them: `boot.scr` |
+//! | [`uboot`] | whether a file is U-Boot for this board |
+//! | [`layout`] | where what lies: the partition table and the card |
+//! | [`fat`] | the file system |
+//!
+//! The same input gives the same bytes: no clock and no random number has a part in them.
+
+pub mod fat;
+pub mod layout;
+pub mod program;
+pub mod script;
+pub mod uboot;
+
+use std::path::Path;
+
+use anyhow::{Context, bail, ensure};
+
+use program::Program;
+
+/// Name of the program on the card.
+pub const PROGRAM_NAME: &str = "halfspace.bin";
+/// Name of the FPGA's image on the card.
+pub const FPGA_IMAGE_NAME: &str = "halfspace.rbf";
+/// Name of U-Boot's script on the card.
+pub const SCRIPT_NAME: &str = "boot.scr";
+
+/// A file in the root folder of the card's file system.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CardFile {
+    /// Its name.
+    pub name: &'static str,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// Returns the files that U-Boot wants, the FPGA's image if there is one.
+pub fn files(program: &Program, fpga_image: Option<Vec<u8>>) -> Vec<CardFile> {
+    let script = script::image(&script::text(program.address));
+    let mut files = vec![
+        CardFile { name: SCRIPT_NAME, bytes: script },
+        CardFile { name: PROGRAM_NAME, bytes: program.bytes.clone() },
+    ];
+    files.extend(fpga_image.map(|bytes| CardFile { name: FPGA_IMAGE_NAME, bytes }));
+    files
+}
+
+/// Reads an FPGA image (.rbf).
+///
+/// # Errors
+/// When it cannot be read, is no raw image, or does not fit where U-Boot loads it.
+pub fn read_fpga_image(path: &Path) -> anyhow::Result<Vec<u8>> {
+    let bytes = std::fs::read(path).with_context(|| {
+        format!("cannot read the FPGA image {}: `make` in fpga/ writes build/halfspace.rbf", path.display())
+    })?;
+    check_fpga_image(&bytes).with_context(|| format!("{} is no FPGA image for the card", path.display()))?;
+    Ok(bytes)
+}
+
+/// A raw image has no mark of its own; what is told is what it surely is not.
+fn check_fpga_image(bytes: &[u8]) -> anyhow::Result<()> {
+    const LARGEST: usize = (script::FPGA_IMAGE_END - script::FPGA_IMAGE) as usize;
+    const OTHERS: [(&[u8], &str); 4] = [
+        (b"SOF", "a .sof, which is for JTAG"),
+        (b"POF", "a .pof, which is for the configuration memory"),
+        (b"\x7fELF", "a program"),
+        (b"<", "a web page"),
+    ];
+    const REMEDY: &str = "give the halfspace.rbf that `make` in fpga/ leaves in fpga/build";
+    if let Some((_, what)) = OTHERS.iter().find(|(start, _)| bytes.starts_with(start)) {
+        bail!("it is {what}: {REMEDY}");
+    }
+    ensure!(!bytes.is_empty(), "it is empty: {REMEDY}");
+    ensure!(bytes.len() <= LARGEST, "it has {} bytes, and U-Boot has room for {LARGEST}: {REMEDY}", bytes.len());
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_file_of_quartus_is_refused_by_name() {
+        let refusal = |bytes: &[u8]| check_fpga_image(bytes).expect_err("no raw image").to_string();
+        assert!(check_fpga_image(&[0xFF; 64]).is_ok());
+        assert!(refusal(b"SOF\0\x01").contains("it is a .sof, which is for JTAG: give the halfspace.rbf"));
+        assert!(refusal(b"").contains("it is empty"));
+        assert!(refusal(b"\x7fELF\x01").contains("it is a program"));
+        assert!(refusal(&vec![0xFF; (128 << 20) + 1]).contains("room for 134217728"));
+    }
+
+    #[test]
+    fn the_fpga_s_image_is_on_the_card_only_if_given() {
+        let program = Program { address: 0x0100_0000, bytes: vec![1, 2, 3, 4] };
+        let names = |image| files(&program, image).iter().map(|file| file.name).collect::<Vec<_>>();
+        assert_eq!(names(None), ["boot.scr", "halfspace.bin"]);
+        assert_eq!(names(Some(vec![0xFF; 8])), ["boot.scr", "halfspace.bin", "halfspace.rbf"]);
+    }
+}
