@@ -49,7 +49,7 @@ pub struct Cli {
 /// One task.
 #[derive(Debug, Subcommand)]
 pub enum Task {
-    /// Boots the firmware in QEMU, plays a controller session, saves the frames
+    /// Boots the firmware in an emulator, plays a controller session, saves the frames
     ///
     /// Leaves in target/demo: a PNG file for each frame, demo.png (all of them as an animation,
     /// which browsers play), report.json, and what the firmware said in console.txt and log.txt.

@@ -10,6 +10,7 @@ use controls::serial::{self, Decoder, FRAME_SIZE_MAXIMUM, kind};
 use firmware::link::{self, BoardMessage, Fault, FrameReport, HostMessage, Status};
 
 use crate::picture::Picture;
+use crate::qemu::ICOUNT_SHIFT;
 
 pub use emulated::Emulated;
 pub use host::{with_host, with_recording_host};
@@ -35,6 +36,11 @@ pub trait Machine {
     /// When the screen cannot be read, or shows what no framebuffer can hold.
     fn screen(&mut self) -> anyhow::Result<(u32, Picture)>;
 
+    /// Returns how long an instruction takes, in nanoseconds of the machine's time: QEMU's, unless it is another.
+    fn nanoseconds_per_instruction(&self) -> f64 {
+        f64::from(1_u32 << ICOUNT_SHIFT)
+    }
+
     /// Ends the machine.
     ///
     /// # Errors
@@ -45,12 +51,14 @@ pub trait Machine {
 }
 
 /// Who is at the other end of the link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Identity {
     /// Ticks of a report's durations in a second.
     pub ticks_per_second: u32,
     /// How many scenes there are.
     pub scenes: u8,
+    /// How long an instruction takes.
+    pub nanoseconds_per_instruction: f64,
 }
 
 /// The PC's end of the link.
@@ -71,7 +79,10 @@ impl<'a, M: Machine + ?Sized> Link<'a, M> {
     /// When nobody answers in time, or in another protocol.
     pub fn identify(&mut self) -> anyhow::Result<Identity> {
         match self.ask(HostMessage::Identify, "the firmware's answer")? {
-            BoardMessage::Hello { ticks_per_second, scenes } => Ok(Identity { ticks_per_second, scenes }),
+            BoardMessage::Hello { ticks_per_second, scenes } => {
+                let nanoseconds_per_instruction = self.machine.nanoseconds_per_instruction();
+                Ok(Identity { ticks_per_second, scenes, nanoseconds_per_instruction })
+            }
             other => bail!("the firmware answers {other:?} when asked who it is: build both from the same source"),
         }
     }

@@ -13,6 +13,8 @@ use crate::software_fpga::buffer_of_screen;
 
 /// How long the board may take to answer, in milliseconds of its own time.
 const PATIENCE: u64 = 5_000;
+/// What an instruction takes of the board's time: a clock of 800 MHz.
+const NANOSECONDS_PER_INSTRUCTION: f64 = 1.25;
 /// Bytes of the console's end that an error shows.
 const SHOWN: usize = 2_000;
 
@@ -65,5 +67,9 @@ impl Machine for Simulated {
     fn screen(&mut self) -> anyhow::Result<(u32, Picture)> {
         let picture = self.board.screen(&self.screen)?;
         Ok((raster_model::picture_checksum(&buffer_of_screen(&picture)?), picture))
+    }
+
+    fn nanoseconds_per_instruction(&self) -> f64 {
+        NANOSECONDS_PER_INSTRUCTION
     }
 }
