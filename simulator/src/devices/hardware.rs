@@ -17,42 +17,12 @@ use super::scu::Scu;
 use super::system_manager::SystemManager;
 use super::uart::Uart;
 use super::usb::Usb;
-use super::{Answer, no_register};
+use super::{Answer, ResetCause, no_register};
 use crate::bus::Bus;
 use crate::fpga::Fpga;
 use crate::fpga::faulty::Faulty;
 use crate::time::{BRIDGE_READ, Clocks, REGISTER_READ, REGISTER_WRITE};
 use crate::violation::Access;
-
-/// What reset the processor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ResetCause {
-    /// Software, cold.
-    SoftwareCold,
-    /// Software, warm.
-    SoftwareWarm,
-    /// The core's own watchdog.
-    PrivateWatchdog,
-    /// A watchdog on the peripherals' bus.
-    L4Watchdog(usize),
-}
-
-impl ResetCause {
-    /// Returns whether memory and the words for software are lost with the reset.
-    pub fn is_cold(self) -> bool {
-        self == Self::SoftwareCold
-    }
-
-    /// Returns the bit of the reset manager's STAT.
-    pub fn status_bit(self) -> u32 {
-        match self {
-            Self::SoftwareCold => 4,
-            Self::SoftwareWarm => 10,
-            Self::PrivateWatchdog => 12,
-            Self::L4Watchdog(index) => 14 + index as u32,
-        }
-    }
-}
 
 /// The levels of the board's pins at the three GPIO blocks: the HPS key is not pressed.
 const BOARD_PINS: [u32; 3] = [0, 1 << HPS_KEY, 0];
