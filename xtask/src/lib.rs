@@ -17,8 +17,8 @@
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
 //! | [`simulated`] | the DE1-SoC's simulator, as a program that is started |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
-//! | [`prove`] | theorems about the FPGA's design, proven |
-//! | [`measure`] | what a vertex, a triangle and a pixel cost |
+//! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
+//! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
 //! | [`card`] | what goes on the DE1-SoC's SD card |
 //! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
 //! | [`checks`] | the steps of `cargo xtask test` |
@@ -41,6 +41,7 @@ pub mod card;
 pub mod cargo_build;
 pub mod checks;
 pub mod cli;
+pub mod code_size;
 pub mod commands;
 pub mod console;
 pub mod demo;
@@ -69,6 +70,7 @@ pub mod software_fpga;
 pub mod stream;
 pub mod table;
 pub mod verilated;
+pub mod yosys;
 
 #[cfg(test)]
 mod test_elf;

@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, and the FPGA's clocks.
+//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, the FPGA's clocks, and the size of the USB code.
 
 use std::env;
 use std::process::Command;
@@ -9,6 +9,7 @@ use crate::area;
 use crate::boot::Bootable;
 use crate::card::program::Program;
 use crate::cli::{BenchArguments, Board};
+use crate::code_size;
 use crate::firmware_build::build_firmware;
 use crate::frame_model;
 use crate::measure::{self, Measurement};
@@ -56,6 +57,7 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     }
     let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
+    measurements.push(code_size::measurement(&progress)?);
     measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
