@@ -51,7 +51,7 @@ pub struct Cli {
 /// One task.
 #[derive(Debug, Subcommand)]
 pub enum Task {
-    /// Boots the firmware in QEMU, plays a controller session, saves the frames
+    /// Boots the firmware in an emulator, plays a controller session, saves the frames
     ///
     /// Leaves in target/demo: a PNG file for each frame, demo.png (all of them as an animation,
     /// which browsers play), report.json, and what the firmware said in console.txt and log.txt.
@@ -158,6 +158,9 @@ pub struct RunArguments {
     /// Style to begin with: flat, smooth, wireframe, hidden-lines or depth-as-grey
     #[arg(long, value_name = "STYLE", value_parser = parse_style)]
     pub style: Option<Style>,
+    /// Has the FPGA's design in Verilator draw, clock by clock, its picture from the VGA pins (de1-soc)
+    #[arg(long)]
+    pub rtl: bool,
     /// Opens no window; stops after --frames and leaves them in --output
     #[arg(long, requires = "frames", requires = "output")]
     pub headless: bool,

@@ -16,6 +16,7 @@
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
+//! | [`simulated`] | the DE1-SoC's simulator, as a program that is started |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
@@ -67,6 +68,7 @@ pub mod render;
 pub mod report;
 pub mod session;
 pub mod setup;
+pub mod simulated;
 pub mod software_fpga;
 pub mod stream;
 pub mod table;

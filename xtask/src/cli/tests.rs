@@ -69,6 +69,7 @@ fn the_other_commands_parse() {
         "demo --board raspi2b",
         "run --board raspi2b --pad s",
         "run --board raspi2b --usb-host 054c:0268",
+        "run --board de1-soc --rtl",
         "pad s --session f",
         "image",
         "image --rbf f --uboot u --output d",

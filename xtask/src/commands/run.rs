@@ -4,20 +4,21 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, anyhow, ensure};
+use anyhow::{Context, anyhow, bail, ensure};
 use firmware::scene::Scene;
 use models::Kind;
 use models::compile::{Options, compile};
 
-use crate::boot::{Bootable, check_runs, start_with_log};
+use crate::boot::{self, Bootable, start_with_log};
 use crate::cli::{Board, RunArguments};
 use crate::machine::{Emulated, Link};
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
-use crate::qemu::{ICOUNT_SHIFT, QemuOptions, UsbDevice};
+use crate::qemu::{QemuOptions, UsbDevice};
 use crate::session::{self, ScenePart};
 use crate::setup::ensure_qemu_window;
+use crate::simulated::Design;
 
 /// Longest time that a window stays open: as good as for ever.
 const WINDOW_LIMIT: Duration = Duration::from_secs(365 * 24 * 3_600);
@@ -29,28 +30,35 @@ const WINDOW_LIMIT: Duration = Duration::from_secs(365 * 24 * 3_600);
 /// When the board cannot run here, something is missing that cannot be installed, the firmware
 /// does not build or run, or a frame cannot be written.
 pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
-    check_runs(arguments.board)?;
+    let design = design(arguments)?;
     match (arguments.headless, arguments.frames, &arguments.output) {
-        (true, Some(frames), Some(output)) => headless(arguments, frames, output),
-        _ => in_a_window(arguments),
+        (true, Some(frames), Some(output)) => headless(arguments, design, frames, output),
+        _ if arguments.board.runs_in_qemu() => in_a_window(arguments),
+        _ => in_the_simulator(arguments, design),
     }
 }
 
+/// Returns what shall be in the FPGA; a board in QEMU has none.
+fn design(arguments: &RunArguments) -> anyhow::Result<Design> {
+    let board = arguments.board;
+    if !arguments.rtl {
+        return Ok(Design::Model);
+    }
+    ensure!(!board.runs_in_qemu(), "{board} has no FPGA: use `--board {}` with --rtl", Board::De1Soc);
+    Ok(Design::Rtl)
+}
+
 /// Plays the recorded session, from its beginning and again if need be, and saves each frame.
-fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Result<()> {
+fn headless(arguments: &RunArguments, design: Design, count: u32, output: &Path) -> anyhow::Result<()> {
     let progress = Progress::new();
     let parts = parts(arguments)?;
     fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
-    let bootable = Bootable::prepare(arguments.board, &progress)?;
     let folder = target_folder().join("run");
     let mesh = mesh_file(arguments, &folder)?;
-    let mut machine = bootable.start_with(&folder, |options| {
-        options.icount_shift = Some(ICOUNT_SHIFT);
-        options.mesh = mesh;
-    })?;
+    let mut machine = boot::start(arguments.board, design, mesh, &folder, &progress)?;
     let step = progress.step(format!("drawing {count} frames"));
     let mut drawn = 0;
-    let mut link = Link::new(&mut machine);
+    let mut link = Link::new(machine.as_mut());
     link.identify()?;
     for part in first_frames(&parts, count as usize) {
         session::play(&mut link, &part, |frame| {
@@ -61,7 +69,7 @@ fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Resu
         })?;
     }
     step.done();
-    machine.quit()?;
+    machine.end()?;
     println!("wrote {drawn} frames to {}", for_display(output).display());
     Ok(())
 }
@@ -114,10 +122,15 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
 /// Returns what is plugged into the board: a keyboard, and behind a hub with it what the flags name.
 fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
     let named = arguments.pad.is_some() || arguments.usb_host.is_some();
-    if arguments.board != Board::Raspi2b {
-        let board = arguments.board;
-        ensure!(!named, "{board} has no USB: use `--board {}` with --pad and --usb-host", Board::Raspi2b);
-        return Ok(Vec::new());
+    let board = arguments.board;
+    match board {
+        Board::Raspi2b => {}
+        _ if !named => return Ok(Vec::new()),
+        Board::De1Soc => bail!(
+            "{board}'s simulator has a keyboard of its own: use --pad and --usb-host with `--board {}`",
+            Board::Raspi2b
+        ),
+        Board::VexpressA9 => bail!("{board} has no USB: use `--board {}` with --pad and --usb-host", Board::Raspi2b),
     }
     if !named {
         return Ok(vec![UsbDevice::keyboard("1")]);
@@ -131,6 +144,26 @@ fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
     }
     devices.extend(arguments.usb_host.map(|ids| UsbDevice::of_this_computer(ids, "1.3")));
     Ok(devices)
+}
+
+/// Runs the DE1-SoC's image in its simulator's window.
+fn in_the_simulator(arguments: &RunArguments, design: Design) -> anyhow::Result<()> {
+    plugged_in(arguments)?;
+    ensure!(
+        arguments.scene.is_none() && arguments.style.is_none(),
+        "--scene and --style do not reach the simulator's window: press Enter and Tab there, or add --headless"
+    );
+    let progress = Progress::new();
+    let folder = target_folder().join("run");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let mesh = mesh_file(arguments, &folder)?;
+    let (simulator, elf) = boot::simulator(arguments.board, design, true, &progress)?;
+    let simulator = simulator.with_mesh(mesh);
+    println!(
+        "click into the window, then use the keyboard: it is the board's USB keyboard; F1 to F4 are its keys KEY0 to"
+    );
+    println!("KEY3, F5 the HPS key, F6 to F12 its switches SW0 to SW6; close the window to end");
+    simulator.live(&elf, &folder.join("console.txt"))
 }
 
 fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
