@@ -21,6 +21,8 @@ use crate::stream::to_bytes;
 
 /// How long the animation shows a frame.
 const FRAME_TIME: Duration = Duration::from_millis(50);
+/// Frames of the recorded game that are shown: all pictures are held until the animation is written.
+const GAME_FRAMES: usize = 600;
 
 /// Runs the demonstration.
 ///
@@ -68,7 +70,9 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
 fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
     match arguments.scene {
         Some(scene) => {
-            let all = [session::seeds()?, session::demo()?, session::game()?].concat();
+            let mut game = session::game()?;
+            game.iter_mut().for_each(|part| part.frames.truncate(GAME_FRAMES));
+            let all = [session::seeds()?, session::demo()?, game].concat();
             Ok(all.into_iter().filter(|part| part.scene == scene).collect())
         }
         None if arguments.seeds => session::seeds(),
