@@ -126,14 +126,14 @@ add_instance vga_clock altera_clock_bridge
 add_connection vga_pll.outclk0 vga_clock.in_clk
 export vga_clk clock source vga_clock.out_clk
 
-# Reset: while a PLL has not locked, and while the processor is in reset.
+# Reset: while a PLL has not locked, and while the processor is in reset. A lock comes and goes at any time, so the
+# bridge promises no edge; Platform Designer then synchronizes the release for each agent that asks for it.
 
 add_instance lock altera_reset_bridge
 set_parameters lock {
     ACTIVE_LOW_RESET  1
-    SYNCHRONOUS_EDGES deassert
+    SYNCHRONOUS_EDGES none
 }
-add_connection bus_pll.outclk0 lock.clk
 export lock reset sink lock.in_reset
 
 # The rasterizer and the board's inputs and outputs.

@@ -1,6 +1,7 @@
-//! Verilates the design once for each number of pixel units and compiles it with a C interface.
+//! Verilates the design once for each number of pixel units, and once with all else different, and compiles it with
+//! a C interface.
 //!
-//! What Verilator writes for a width is compiled as two units, so that its headers, most of the work,
+//! What Verilator writes for a build is compiled as two units, so that its headers, most of the work,
 //! are read twice and not nine times: what runs every clock with `shim.cpp`, optimised, and what runs
 //! at start or for a wave. As many compilers run at a time as there are processors.
 
@@ -9,8 +10,32 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::{env, fs, thread};
 
-/// Builds: pixel units.
-const UNITS: [u32; 4] = [1, 2, 4, 8];
+/// A configuration of the design.
+struct Build {
+    /// Its name in the C interface.
+    name: &'static str,
+    units: u32,
+    /// What Verilator is told besides.
+    arguments: &'static [&'static str],
+}
+
+/// Begins as costs least.
+const FAST: &[&str] = &["--x-assign", "fast", "--x-initial", "fast"];
+const BUILDS: [Build; 5] = [
+    Build { name: "1", units: 1, arguments: FAST },
+    Build { name: "2", units: 2, arguments: FAST },
+    Build { name: "4", units: 4, arguments: FAST },
+    Build { name: "8", units: 8, arguments: FAST },
+    // Whatever has no reset, or no value, gets one at run time, by a seed.
+    Build {
+        name: "scrambled",
+        units: 2,
+        arguments: &["--x-assign", "unique", "--x-initial", "unique", "-GFifoDepth=64", "-GInterruptWired=1'b0"],
+    },
+];
+
+/// What `shim.cpp` is made of.
+const SHIM: [&str; 4] = ["src/shim.cpp", "src/shim/falling_edges.h", "src/shim/scan.h", "src/shim/wave.h"];
 
 const MISSING: &str = "install it (Debian: apt-get install verilator g++)";
 
@@ -21,9 +46,9 @@ fn main() {
     let waves = env::var_os("CARGO_FEATURE_WAVES").is_some();
 
     thread::scope(|scope| {
-        for units in UNITS {
+        for build in &BUILDS {
             let (design, out) = (&design, &out);
-            scope.spawn(move || design.verilate(units, waves, &out.join(prefix(units))));
+            scope.spawn(move || design.verilate(build, waves, &out.join(build.prefix())));
         }
     });
 
@@ -34,8 +59,8 @@ fn main() {
     }
     // The longest first.
     let mut jobs: Vec<Job> = files.into_iter().map(|file| Job::of(file, 1, &out)).collect();
-    for units in UNITS.into_iter().rev() {
-        jobs.extend(units_of(units, &here.join("src/shim.cpp"), &out.join(prefix(units))));
+    for build in BUILDS.iter().rev() {
+        jobs.extend(units_of(build, &here.join("src/shim.cpp"), &out.join(build.prefix())));
     }
     let mut library = compiler(&runtime, waves);
     library.objects(compile(jobs, &runtime, waves));
@@ -68,23 +93,24 @@ impl Design {
         for path in design.sources.iter().chain([&list, &design.waivers]) {
             println!("cargo::rerun-if-changed={}", path.display());
         }
-        for name in ["build.rs", "src/shim.cpp", "src/wave_reader.cpp"] {
+        for name in SHIM.into_iter().chain(["build.rs", "src/wave_reader.cpp"]) {
             println!("cargo::rerun-if-changed={name}");
         }
         design
     }
 
-    /// Lets Verilator write the design's C++ for a number of pixel units to `folder`.
-    fn verilate(&self, units: u32, waves: bool, folder: &Path) {
+    /// Lets Verilator write the design's C++ for a build to `folder`.
+    fn verilate(&self, build: &Build, waves: bool, folder: &Path) {
         // The files' names change with the design: older ones must not stay.
         if folder.exists() {
             fs::remove_dir_all(folder).unwrap_or_else(|error| panic!("cannot empty {}: {error}", folder.display()));
         }
         let status = Command::new("verilator")
-            .args(["--cc", "--threads", "1", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--assert"])
+            .args(["--cc", "--threads", "1", "-O3", "--assert"])
+            .args(build.arguments)
             .args(waves.then_some(["--trace-fst", "--trace-structs"]).iter().flatten())
-            .args(["--top-module", "halfspace_sim", "--prefix", &prefix(units)])
-            .arg(format!("-GPixelUnits={units}"))
+            .args(["--top-module", "halfspace_sim", "--prefix", &build.prefix()])
+            .arg(format!("-GPixelUnits={}", build.units))
             // A word that is given up after 42 ms at 50 MHz: more than a frame, so that swaps are waited for.
             .args(["-GFifoPatience=2000000"])
             .arg("--Mdir")
@@ -110,9 +136,10 @@ impl Job {
     }
 }
 
-/// Gathers a width's C++ in two units of compilation: what runs every clock, and what runs once.
-fn units_of(units: u32, shim: &Path, folder: &Path) -> [Job; 2] {
-    let prefix = prefix(units);
+/// Gathers a build's C++ in two units of compilation: what runs every clock, and what runs once.
+fn units_of(build: &Build, shim: &Path, folder: &Path) -> [Job; 2] {
+    let Build { name: build_name, units, .. } = build;
+    let prefix = build.prefix();
     let (mut often, mut once) = (String::new(), String::new());
     for entry in fs::read_dir(folder).expect("verilator has made it") {
         let path = entry.expect("readable").path();
@@ -124,7 +151,7 @@ fn units_of(units: u32, shim: &Path, folder: &Path) -> [Job; 2] {
         }
     }
     often.push_str(&format!(
-        "#define UNITS {units}\n#define MODEL {prefix}\n#define HEADER \"{prefix}.h\"\n\
+        "#define BUILD {build_name}\n#define UNITS {units}\n#define MODEL {prefix}\n#define HEADER \"{prefix}.h\"\n\
          #define ROOT_HEADER \"{prefix}___024root.h\"\n#include \"{}\"\n",
         shim.display()
     ));
@@ -173,8 +200,11 @@ fn compiler(runtime: &Path, waves: bool) -> cc::Build {
     build
 }
 
-fn prefix(units: u32) -> String {
-    format!("Vhalfspace{units}")
+impl Build {
+    /// What Verilator's files and classes begin with.
+    fn prefix(&self) -> String {
+        format!("Vhalfspace_{}", self.name)
+    }
 }
 
 /// Asks Verilator where its run-time sources lie.

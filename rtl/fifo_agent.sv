@@ -1,4 +1,5 @@
-// The FIFO's aperture on the bus: Avalon-MM, write only, 32 bits, any address pushes.
+// The FIFO's aperture on the bus: writes of Avalon-MM, 32 bits, any address pushes. Reads are not its matter
+// (`halfspace` answers 0) and never wait: waitrequest is for writes alone.
 //
 // A word that comes in the clock of a reset waits for the next, so that it is not lost with those before.
 // While the FIFO is full and the device enabled, waitrequest holds the bus: the FIFO will drain.

@@ -8,7 +8,7 @@
 
 module halfspace #(
     parameter int unsigned PixelUnits = 8,  // 1, 2, 4 or 8
-    parameter int unsigned FifoDepth = 1024,  // words; a power of two, 32 to 32,768
+    parameter int unsigned FifoDepth = 1024,  // words; a power of two, 64 to 32,768
     parameter int unsigned FifoPatience = 1 << 22,  // clocks that a word waits at most
     parameter bit InterruptWired = 1'b1
 ) (
@@ -22,6 +22,8 @@ module halfspace #(
     input  logic [31:0] register_writedata_i,
 
     input  logic [9:0]  fifo_address_i,
+    input  logic        fifo_read_i,
+    output logic [31:0] fifo_readdata_o,
     input  logic        fifo_write_i,
     input  logic [31:0] fifo_writedata_i,
     output logic        fifo_waitrequest_o,
@@ -101,9 +103,10 @@ module halfspace #(
       .rst_no(vga_rst_n)
   );
 
-  // Every address of the aperture pushes.
-  logic unused_address;
-  assign unused_address = ^fifo_address_i;
+  // Every address of the aperture pushes. A read gets 0 at once, and takes nothing.
+  logic unused_aperture;
+  assign unused_aperture = ^{fifo_address_i, fifo_read_i};
+  assign fifo_readdata_o = '0;
 
   register_agent #(
       .PixelUnits    (PixelUnits),

@@ -3,6 +3,7 @@
 // Read latency 1. A read of the word that is written at the same edge returns an unspecified
 // value: callers on one clock forward the write themselves. Contents start unspecified (an FPGA's
 // configuration makes them 0). An address past the end writes nothing and reads an unspecified value.
+// The attribute is Quartus's: without `no_rw_check` it adds logic where both ports have one clock.
 `default_nettype none
 
 module ram_1w1r #(
@@ -19,7 +20,7 @@ module ram_1w1r #(
     output logic [Width-1:0]         read_data_o
 );
 
-  logic [Width-1:0] mem[Depth];
+  (* ramstyle = "M10K, no_rw_check" *) logic [Width-1:0] mem[Depth];
 
   always_ff @(posedge write_clk_i) begin
     if (write_i) mem[write_address_i] <= write_data_i;

@@ -1,6 +1,6 @@
 // Moves a primitive's start to the tile grid and works out what stays the same over it.
 //
-// Handshake: valid/ready on both sides. Takes a primitive when it holds none; offers it 2 clocks
+// Handshake: valid/ready on both sides. Takes a primitive when it holds none; offers it 3 clocks
 // later, and holds it until it is taken. Adds, shifts and selects only.
 //
 // An edge is carried as its *largest* value in a tile, so that its sign says whether the tile may

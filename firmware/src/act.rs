@@ -2,7 +2,7 @@
 //!
 //! | module | scenes |
 //! | --- | --- |
-//! | [`exhibit`] | one model that the pad tilts: the torus |
+//! | [`exhibit`] | one model that the pad tilts: the torus, the model of a mesh file |
 //! | [`plate`] | the plate, and as the system showed it that tilted it first: [`columbia`] |
 //! | [`tunnel`] | a ride through the torus |
 //! | [`solids`] | several objects under a coloured light; a camera that orbits or flies |
@@ -84,6 +84,8 @@ pub enum Act {
     Wireframe(Wireframe),
     /// Polygons.
     Polygons(Polygons),
+    /// The model of a mesh file.
+    Model(Exhibit),
     /// The game.
     Game(Balancer),
 }
@@ -98,6 +100,7 @@ impl Act {
             Scene::Solids => Self::Solids(Solids::START),
             Scene::Wireframe => Self::Wireframe(Wireframe::START),
             Scene::Polygons => Self::Polygons(Polygons::START),
+            Scene::Model => Self::Model(Exhibit::FOUND),
             Scene::Game => Self::Game(Balancer::new()),
         }
     }
@@ -106,7 +109,7 @@ impl Act {
     pub fn perform(&mut self) -> &mut dyn Perform {
         match self {
             Self::Plate(plate) => plate,
-            Self::Torus(torus) => torus,
+            Self::Torus(exhibit) | Self::Model(exhibit) => exhibit,
             Self::Tunnel(tunnel) => tunnel,
             Self::Solids(solids) => solids,
             Self::Wireframe(wireframe) => wireframe,

@@ -13,6 +13,7 @@ use crate::intake::Intake;
 use crate::legend;
 use crate::link::{self, BoardMessage, FrameReport, HostMessage, Status};
 use crate::scene::Scene;
+use crate::scene::found::Found;
 use crate::scene::meshes::{MeshMemory, Meshes};
 use crate::style::{Manner, Style};
 use crate::viewer::Viewer;
@@ -49,18 +50,21 @@ pub struct Application<'a, B: Board, W> {
 }
 
 impl<'a, B: Board, W: Wait> Application<'a, B, W> {
-    /// Returns the application on a board and its renderer, at the beginning of the first scene.
+    /// Returns the application on a board and its renderer, at the beginning of the first scene; or, if a mesh
+    /// file was found in memory, of the scene that shows it. The console is told of one, whatever it is.
     ///
     /// # Errors
     /// [`MeshError`] if a built-in mesh is malformed.
-    pub fn new(board: B, renderer: Renderer<B::Port, W>, memory: &'a mut Memory) -> Result<Self, MeshError> {
+    pub fn new(mut board: B, renderer: Renderer<B::Port, W>, memory: &'a mut Memory) -> Result<Self, MeshError> {
+        let mut meshes = Meshes::new(&mut memory.meshes)?;
+        let scene = take_mesh_file(&mut board, &mut meshes);
         Ok(Self {
             board,
             renderer,
-            meshes: Meshes::new(&mut memory.meshes)?,
+            meshes,
             frame_memory: &mut memory.frame,
             intake: Intake::new(),
-            viewer: Viewer::new(Scene::Plate),
+            viewer: Viewer::new(scene),
             decoder: Decoder::new(),
             frame: 0,
             frame_end: 0,
@@ -276,6 +280,32 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         self.board.show_fault();
         if let Err(error) = self.renderer.restart() {
             let _ = writeln!(self.board.console(), "renderer: {error}");
+        }
+    }
+}
+
+/// Looks for a mesh file that was left in memory, and returns the scene to begin with.
+fn take_mesh_file<'a, B: Board>(board: &mut B, meshes: &mut Meshes<'a>) -> Scene {
+    let Some(bytes) = board.mesh_file() else { return Scene::Plate };
+    match Found::new(bytes) {
+        Ok(found) => {
+            let header = found.header();
+            let _ = writeln!(
+                board.console(),
+                "mesh in memory: {} triangles, {} edges, {} vertices in {} blocks; scene `{}` shows it",
+                header.faces,
+                header.edges,
+                header.vertices,
+                header.blocks,
+                Scene::Model.name()
+            );
+            meshes.set_found(found);
+            Scene::Model
+        }
+        Err(error) => {
+            let _ = writeln!(board.console(), "mesh in memory: {error}; the one that is built in stays");
+            board.show_fault();
+            Scene::Plate
         }
     }
 }

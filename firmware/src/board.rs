@@ -38,6 +38,12 @@ pub trait Board {
     /// Returns the CRC-32 of the picture that shows, where the processor can see it.
     fn picture_checksum(&mut self, port: &mut Self::Port) -> Option<u32>;
 
+    /// Returns memory that begins with a mesh file which somebody left there before the program started, if
+    /// something is there. Asked once.
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        None
+    }
+
     /// Waits until the next frame is due, where showing one does not wait by itself.
     fn pace(&mut self);
 

@@ -5,13 +5,14 @@ use core::ops::ControlFlow;
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
 use geometry::{
-    Culling, DrawStatistics, Drawn, LitColour, LitVertices, ObjectLight, ScreenTransform, ScreenVertex, Sink,
-    Transformed, Unlit,
+    Culling, DirectionalLight, DrawStatistics, Drawn, LitColour, LitVertices, Matrix, ObjectLight, ScreenTransform,
+    ScreenVertex, Sink, Transformed, Unlit,
 };
 
 use crate::link::FrameReport;
+use crate::scene::found::BlockMemory;
 use crate::scene::meshes::{MAX_VERTICES, Meshes, Model};
-use crate::scene::stage::Stage;
+use crate::scene::stage::{Stage, Subject};
 use crate::style::{Pass, Style};
 
 /// Words that are gathered before they go to the FPGA: most frames whole.
@@ -21,6 +22,7 @@ const BUFFER_WORDS: usize = 32 * 1024;
 pub struct FrameMemory {
     vertices: [ScreenVertex; MAX_VERTICES],
     lit: [LitColour; MAX_VERTICES],
+    block: BlockMemory,
     words: [u32; BUFFER_WORDS],
 }
 
@@ -28,7 +30,12 @@ impl FrameMemory {
     /// Empty memory, for a static.
     pub const fn new() -> Self {
         let vertex = ScreenVertex { x: 0, y: 0, depth: 0, outside: 0 };
-        Self { vertices: [vertex; MAX_VERTICES], lit: [LitColour::BLACK; MAX_VERTICES], words: [0; BUFFER_WORDS] }
+        Self {
+            vertices: [vertex; MAX_VERTICES],
+            lit: [LitColour::BLACK; MAX_VERTICES],
+            block: BlockMemory::new(),
+            words: [0; BUFFER_WORDS],
+        }
     }
 }
 
@@ -55,38 +62,40 @@ pub fn draw_frame<P: Port, W: Wait>(
     let words_before = renderer.words_pushed();
     renderer.clear(Rgb332::BLACK, DEPTH_FAR)?;
 
-    let mut cost = Cost::default();
-    let mut writer = PacketWriter::new(&mut memory.words, renderer, &mut ticks);
+    let FrameMemory { vertices, lit, block, words } = memory;
+    let writer = PacketWriter::new(words, renderer, &mut ticks);
+    let mut painter = Painter { vertices, lit, writer, cost: Cost::default() };
     let world_to_clip = stage.camera.projection.times(&stage.camera.view);
-    let passes = stage.style.passes();
-    for (index, pass) in passes.iter().enumerate() {
+    for (index, pass) in stage.style.passes().iter().enumerate() {
         for object in &stage.objects {
-            let model = meshes.of(object.shape);
-            let (vertices, lit) = (&mut memory.vertices[..], &mut memory.lit[..]);
-            let model_to_clip = world_to_clip.times(&object.model);
-            let start = (writer.ticks)();
-            let transform = ScreenTransform::new(&model_to_clip, &model.mesh);
-            // The caches are as large as the largest mesh.
-            let Ok(transformed) = Transformed::new(&model.mesh, &transform, vertices) else { continue };
-            let transformed_at = (writer.ticks)();
-            let light = ObjectLight::new(&stage.light, &object.model);
-            // Lighting a vertex is a vertex's cost; what turns the light is a mesh's, and so the faces'.
-            let light_at = (writer.ticks)();
-            let lit = match pass {
-                // The memory is as large as the largest mesh, so there is never too little.
-                Pass::Smooth => transformed.light_vertices(model.looks, &light, lit).ok(),
-                _ => None,
+            let place = |model: Matrix, culling, extent| Place {
+                model_to_clip: world_to_clip.times(&model),
+                model,
+                light: &stage.light,
+                culling,
+                extent,
+                is_first_pass: index == 0,
             };
-            let vertices_done = (writer.ticks)();
-            let pushed_before = writer.pushing;
-            let statistics = draw_pass(&transformed, model, (*pass, object.culling), &light, lit, &mut writer);
-            let pushing = writer.pushing - pushed_before;
-            cost.vertex_ticks += transformed_at - start + (vertices_done - light_at);
-            cost.face_ticks += (light_at - transformed_at) + (writer.ticks)() - vertices_done - pushing;
-            // What a later pass draws again counts as drawn, not as more to draw.
-            cost.add(&statistics, index == 0);
+            let found = match object.subject {
+                Subject::Shape(shape) => {
+                    painter.draw(meshes.of(shape), *pass, &place(object.model, object.culling, None));
+                    continue;
+                }
+                Subject::Found => meshes.found(),
+            };
+            let Some((found, pass)) = found.and_then(|found| found.pass(*pass).map(|pass| (found, pass))) else {
+                continue;
+            };
+            let culling = if found.is_two_sided() { Culling::None } else { object.culling };
+            let place = place(object.model.times(found.fit()), culling, Some(found.extent()));
+            for part in found.blocks() {
+                if let Some(model) = painter.timed(|| block.decode(found.header(), &part)) {
+                    painter.draw(&model, pass, &place);
+                }
+            }
         }
     }
+    let Painter { writer, cost, .. } = painter;
     writer.finish()?;
 
     renderer.swap()?;
@@ -106,6 +115,62 @@ pub fn draw_frame<P: Port, W: Wait>(
         score: None,
         checksum: None,
     })
+}
+
+/// A mesh's place in a frame.
+struct Place<'a> {
+    model_to_clip: Matrix,
+    model: Matrix,
+    light: &'a DirectionalLight,
+    culling: Culling,
+    /// Of the whole mesh that this one is a part of.
+    extent: Option<[u32; 3]>,
+    is_first_pass: bool,
+}
+
+/// Draws meshes, and keeps what they cost.
+struct Painter<'a, P, W, T> {
+    vertices: &'a mut [ScreenVertex],
+    lit: &'a mut [LitColour],
+    writer: PacketWriter<'a, P, W, T>,
+    cost: Cost,
+}
+
+impl<P: Port, W: Wait, T: FnMut() -> u64> Painter<'_, P, W, T> {
+    /// Does work that is the vertices'.
+    fn timed<R>(&mut self, work: impl FnOnce() -> R) -> R {
+        let start = (self.writer.ticks)();
+        let result = work();
+        self.cost.vertex_ticks += (self.writer.ticks)() - start;
+        result
+    }
+
+    /// Draws a mesh's part of a pass.
+    fn draw(&mut self, model: &Model<'_>, pass: Pass, place: &Place<'_>) {
+        let Self { vertices, lit, writer, cost } = self;
+        let start = (writer.ticks)();
+        let extent = place.extent.unwrap_or_else(|| model.mesh.extent());
+        let transform = ScreenTransform::of_extent(&place.model_to_clip, extent);
+        // The caches are as large as the largest mesh.
+        let Ok(transformed) = Transformed::new(&model.mesh, &transform, vertices) else { return };
+        let transformed_at = (writer.ticks)();
+        let light = ObjectLight::new(place.light, &place.model);
+        // Lighting a vertex is a vertex's cost; what turns the light is a mesh's, and so the faces'.
+        let light_at = (writer.ticks)();
+        let lit = match pass {
+            // The memory is as large as the largest mesh, so there is never too little.
+            Pass::Smooth => transformed.light_vertices(model.looks, &light, lit).ok(),
+            _ => None,
+        };
+        let vertices_done = (writer.ticks)();
+        let pushed_before = writer.pushing;
+        let statistics = draw_pass(&transformed, model, (pass, place.culling), &light, lit, writer);
+        let pushing = writer.pushing - pushed_before;
+        cost.vertex_ticks += transformed_at - start + (vertices_done - light_at);
+        cost.face_ticks += (light_at - transformed_at) + (writer.ticks)() - vertices_done - pushing;
+        // What a later pass draws again counts as drawn, not as more to draw.
+        cost.add(&statistics, place.is_first_pass);
+    }
 }
 
 /// What a frame's objects took, all together.

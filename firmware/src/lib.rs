@@ -10,6 +10,7 @@
 //! | [`frame`] | one frame: a stage to packets, and these to the FPGA |
 //! | [`intake`] | what controllers say, taken in and tallied |
 //! | [`legend`] | what each key does, as the console tells it |
+//! | [`left_in_memory`] | what somebody left in memory before the start |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
 //! | [`armv7a`] | what every board shares: start-up, MMU, L1 caches, fault reports |
@@ -45,6 +46,7 @@ pub mod cortex_a9;
 pub mod de1_soc;
 pub mod frame;
 pub mod intake;
+pub mod left_in_memory;
 pub mod legend;
 pub mod link;
 pub mod mmio;

@@ -2,11 +2,13 @@
 //!
 //! | module | what it holds |
 //! | --- | --- |
+//! | [`found`] | the model of a mesh file |
 //! | [`meshes`] | the shapes that scenes put together |
 //! | [`stage`] | one frame of a scene: objects, camera, light |
 //!
 //! What a scene does from frame to frame stands in [`act`](crate::act).
 
+pub mod found;
 pub mod meshes;
 mod plate;
 pub mod stage;
@@ -28,14 +30,24 @@ pub enum Scene {
     Wireframe,
     /// Convex polygons of many corners that cut through one another.
     Polygons,
+    /// The model of a mesh file: the one that was found in memory, or the one that is built in.
+    Model,
     /// The Ultimate Ball Balancer: a ball on the plate, targets, a clock.
     Game,
 }
 
 impl Scene {
     /// All scenes, in the order in which Start goes through them.
-    pub const ALL: &'static [Scene] =
-        &[Scene::Plate, Scene::Torus, Scene::Tunnel, Scene::Solids, Scene::Wireframe, Scene::Polygons, Scene::Game];
+    pub const ALL: &'static [Scene] = &[
+        Scene::Plate,
+        Scene::Torus,
+        Scene::Tunnel,
+        Scene::Solids,
+        Scene::Wireframe,
+        Scene::Polygons,
+        Scene::Model,
+        Scene::Game,
+    ];
 
     /// Returns the scene's name.
     pub fn name(self) -> &'static str {
@@ -46,6 +58,7 @@ impl Scene {
             Scene::Solids => "solids",
             Scene::Wireframe => "wireframe",
             Scene::Polygons => "polygons",
+            Scene::Model => "model",
             Scene::Game => "game",
         }
     }
@@ -54,7 +67,7 @@ impl Scene {
     pub fn style(self) -> Style {
         match self {
             Scene::Plate | Scene::Torus | Scene::Tunnel | Scene::Game => Style::Flat,
-            Scene::Solids => Style::Smooth,
+            Scene::Solids | Scene::Model => Style::Smooth,
             Scene::Wireframe => Style::Wire,
             Scene::Polygons => Style::DepthGrey,
         }

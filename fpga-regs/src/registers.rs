@@ -25,7 +25,7 @@ word! {
 word! {
     /// CAPABILITIES: what this build of the FPGA has.
     Capabilities {
-        /// FIFO depth in words.
+        /// FIFO depth in words, at least twice the longest packet's.
         fifo_depth / with_fifo_depth: [15:0] u16,
         /// Pixel units: pixels drawn a clock at most.
         pixel_units / with_pixel_units: [23:16] u8,
@@ -135,13 +135,13 @@ registers! {
     0x24 FENCE Fence fence: RO ReadOnly Some(0), &[];
     /// Triangle packets taken since reset, bad ones left out, whether or not they covered a pixel; wraps.
     0x28 TRIANGLES Triangles triangles: RO ReadOnly Some(0), &[];
-    /// Pixels that a triangle covered and whose depth was tested, since reset; wraps.
+    /// Pixels that triangles covered since reset, with keep_depth too, though their depth is not tested then; wraps.
     0x2c PIXELS_TESTED PixelsTested pixels_tested: RO ReadOnly Some(0), &[];
-    /// Pixels that passed the depth test and were written, since reset; wraps. Clears do not count.
+    /// Those of PIXELS_TESTED that were nearer than what was there, and with keep_depth all of them; keep_colour changes nothing in this. Since reset; wraps. Clears do not count.
     0x30 PIXELS_WRITTEN PixelsWritten pixels_written: RO ReadOnly Some(0), &[];
     /// Clocks in which a packet was under way, since reset; wraps. The software model has no clock and reads 0.
     0x34 BUSY_CYCLES BusyCycles busy_cycles: RO ReadOnly Some(0), &[];
-    /// Clocks in which a packet waited for a vertical blank or for memory, since reset; wraps. The software model reads 0.
+    /// Clocks in which a swap waited for the vertical blank alone, all before it being drawn, since reset; wraps. Nothing ever waits for memory. The software model reads 0.
     0x38 STALLED_CYCLES StalledCycles stalled_cycles: RO ReadOnly Some(0), &[];
     /// Swaps that took place since reset; wraps.
     0x3c FRAMES_SHOWN FramesShown frames_shown: RO ReadOnly Some(0), &[];

@@ -38,7 +38,7 @@ set_parameter_property PixelUnits HDL_PARAMETER true
 add_parameter FifoDepth POSITIVE 1024
 set_parameter_property FifoDepth DISPLAY_NAME "FIFO depth"
 set_parameter_property FifoDepth DESCRIPTION "Words that the command FIFO holds"
-set_parameter_property FifoDepth ALLOWED_RANGES {32 64 128 256 512 1024 2048 4096}
+set_parameter_property FifoDepth ALLOWED_RANGES {64 128 256 512 1024 2048 4096}
 set_parameter_property FifoDepth HDL_PARAMETER true
 
 # Clocks and reset.
@@ -69,14 +69,18 @@ add_interface_port registers register_readdata_o readdata Output 32
 add_interface_port registers register_write_i write Input 1
 add_interface_port registers register_writedata_i writedata Input 32
 
-# The FIFO's aperture: write only; it waits while the FIFO is full.
+# The FIFO's aperture: a write waits while the FIFO is full; a read gets 0 in the same clock.
 
 add_interface fifo avalon end
 set_interface_property fifo associatedClock clock
 set_interface_property fifo associatedReset reset
 set_interface_property fifo addressUnits WORDS
+set_interface_property fifo readLatency 0
+set_interface_property fifo readWaitTime 0
 set_interface_property fifo writeWaitTime 0
 add_interface_port fifo fifo_address_i address Input 10
+add_interface_port fifo fifo_read_i read Input 1
+add_interface_port fifo fifo_readdata_o readdata Output 32
 add_interface_port fifo fifo_write_i write Input 1
 add_interface_port fifo fifo_writedata_i writedata Input 32
 add_interface_port fifo fifo_waitrequest_o waitrequest Output 1

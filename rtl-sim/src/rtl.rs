@@ -9,12 +9,14 @@ use std::{error, fmt, io, ptr};
 use fpga_regs::Port;
 use fpga_regs::registers::{Capabilities, Register, Status};
 
-use crate::calls::{Calls, UNITS_1, UNITS_2, UNITS_4, UNITS_8};
+use crate::calls::{Calls, SCRAMBLED, UNITS_1, UNITS_2, UNITS_4, UNITS_8};
 use crate::memories::Memories;
 use crate::vga::Frame;
 
 /// The numbers of pixel units that there are builds for.
 pub const UNITS: [u32; 4] = [1, 2, 4, 8];
+/// Pixel units of [`Rtl::scrambled`].
+const SCRAMBLED_UNITS: u32 = 2;
 
 /// Why a wave cannot be written.
 #[derive(Debug)]
@@ -65,8 +67,22 @@ impl Rtl {
             8 => &UNITS_8,
             _ => panic!("no build has {units} pixel units: there are {UNITS:?}"),
         };
+        Self::of(calls, units, 0)
+    }
+
+    /// Returns a device that differs from the others in all that may differ: 2 pixel units, a FIFO of
+    /// [`SCRAMBLED_FIFO_DEPTH`](Self::SCRAMBLED_FIFO_DEPTH) words, no interrupt line; and what reset does
+    /// not set, flip-flops and memories, begins as `seed` says, the same with every run.
+    pub fn scrambled(seed: u32) -> Self {
+        Self::of(&SCRAMBLED, SCRAMBLED_UNITS, seed)
+    }
+
+    /// Words in the FIFO of [`scrambled`](Self::scrambled), the smallest that the component offers.
+    pub const SCRAMBLED_FIFO_DEPTH: usize = 64;
+
+    fn of(calls: &'static Calls, units: u32, seed: u32) -> Self {
         // Safety: makes a new simulation, which `drop` frees.
-        let sim = unsafe { (calls.new)() };
+        let sim = unsafe { (calls.new)(seed) };
         Self { calls, sim, units }
     }
 
@@ -183,6 +199,13 @@ impl Rtl {
     pub fn push_word(&mut self, word: u32) -> u64 {
         // Safety: as above.
         unsafe { (self.calls.push)(self.sim, word) }
+    }
+
+    /// Reads a word of the aperture; returns what stands on the bus in the same clock, or `None` when the bus is held.
+    pub fn read_aperture(&mut self) -> Option<u32> {
+        // Safety: as above.
+        let answer = unsafe { (self.calls.read_aperture)(self.sim) };
+        (answer >> 32 == 0).then_some(answer as u32)
     }
 
     /// Reads the word at a byte offset of the register agent, whether or not a register is there.

@@ -1,21 +1,19 @@
-// One verilated build of the device behind a C interface; compiled once for each number of pixel
-// units, with UNITS, MODEL (the class), HEADER and ROOT_HEADER defined by build.rs.
+// One verilated build of the device behind a C interface; compiled once for each, with BUILD (its name),
+// UNITS, MODEL (the class), HEADER and ROOT_HEADER defined by build.rs.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include HEADER
 #include ROOT_HEADER
+#include "shim/falling_edges.h"
+#include "shim/scan.h"
+#include "shim/wave.h"
 #include "verilated.h"
-#if VM_TRACE
-#include "verilated_fst_c.h"
-#endif
 
 #define JOIN2(a, b, c) a##b##c
 #define JOIN(a, b, c) JOIN2(a, b, c)
-#define NAME(f) JOIN(halfspace_, UNITS, f)
+#define NAME(f) JOIN(halfspace_, BUILD, f)
 
 namespace {
 
@@ -33,54 +31,29 @@ constexpr uint64_t kBusRises = 2000;
 constexpr uint64_t kBusFalls = 10000;
 constexpr uint64_t kVgaHalf = 3000;
 
-// Pixels on the VGA pins in a line and a frame, and the clocks that these take with their blanks.
-constexpr uint32_t kScreenWidth = 640;
-constexpr uint32_t kScreen = kScreenWidth * 480;
-constexpr uint64_t kLineClocks = 800;
-constexpr uint64_t kLines = 525;
 // Bus clocks in which nothing has to change before some may be left out: longer than any pipeline here.
 constexpr uint64_t kSettled = 64;
 // Bus clocks that are left out at a time, about a line, and those run after them: they carry VGA's blank over.
 constexpr uint64_t kLeftOut = 1560;
 constexpr uint64_t kCarry = 6;
 
-// Nothing in the design looks at a falling edge. So where the name is known under which Verilator keeps a
-// clock's last level (5.006's, 5.020's), that is set instead of evaluating all for nothing: half the work.
-// Returns whether it was.
-template <typename Root>
-auto bus_clock_falls(Root* root, int) -> decltype(root->__Vtrigrprev__TOP__clk_i, bool()) {
-  root->__Vtrigrprev__TOP__clk_i = 0;
-  return true;
-}
-template <typename Root>
-auto bus_clock_falls(Root* root, int) -> decltype(root->__Vtrigprevexpr___TOP__clk_i__0, bool()) {
-  root->__Vtrigprevexpr___TOP__clk_i__0 = 0;
-  return true;
-}
-template <typename Root>
-bool bus_clock_falls(Root*, long) {
-  return false;
-}
-template <typename Root>
-auto vga_clock_falls(Root* root, int) -> decltype(root->__Vtrigrprev__TOP__vga_clk_i, bool()) {
-  root->__Vtrigrprev__TOP__vga_clk_i = 0;
-  return true;
-}
-template <typename Root>
-auto vga_clock_falls(Root* root, int) -> decltype(root->__Vtrigprevexpr___TOP__vga_clk_i__0, bool()) {
-  root->__Vtrigprevexpr___TOP__vga_clk_i__0 = 0;
-  return true;
-}
-template <typename Root>
-bool vga_clock_falls(Root*, long) {
-  return false;
-}
-
 struct Sim {
-  VerilatedContext context;
-  // No pool of threads that would only wait; all signals are kept where waves are built in.
-  bool one_thread = (context.threads(1), context.traceEverOn(VM_TRACE), true);
-  MODEL model{&context, "halfspace"};
+  explicit Sim(uint32_t seed) : context(prepared(seed)) {}
+
+  // No pool of threads that would only wait; all signals are kept where waves are built in. What has no
+  // value at power-on gets one by the seed, where the build asks for one.
+  static VerilatedContext* prepared(uint32_t seed) {
+    auto* context = new VerilatedContext;
+    context->threads(1);
+    context->traceEverOn(VM_TRACE);
+    context->randReset(2);
+    // 0 would be taken for any seed.
+    context->randSeed(static_cast<int>(seed % 0x7fffffff) + 1);
+    return context;
+  }
+
+  std::unique_ptr<VerilatedContext> context;
+  MODEL model{context.get(), "halfspace"};
   uint64_t clocks = 0;
   uint64_t vga_clocks = 0;
   uint64_t tiles = 0;
@@ -94,74 +67,50 @@ struct Sim {
   uint64_t swaps = 0;
   uint32_t front = 0;
   uint64_t settled = 0;
-  // The picture on the pins as it is scanned out, and the last whole one, with the swaps before it.
-  std::vector<uint8_t> scan, whole;
-  uint32_t scan_at = 0;
-  uint64_t scan_swaps = 0, whole_swaps = 0, whole_frames = 0;
+  Scan scan;
+  // Ends before the model does.
+  Wave wave;
 
-#if VM_TRACE
-  VerilatedFstC wave;
-  bool wave_known = false;
-  std::string wave_file;
-  uint64_t wave_from = 0, wave_to = 0;
-  uint64_t wave_time = 0;
-
-  void wave_window() {
-    const bool inside = clocks >= wave_from && clocks < wave_to;
-    if (inside && !wave.isOpen()) wave.open(wave_file.c_str());
-    if (!inside && wave.isOpen()) wave.close();
+  // Power-on, reset, and out of it. A falling edge of the reset is the first thing to happen.
+  void start() {
+    model.clk_i = model.vga_clk_i = 0;
+    model.register_read_i = model.register_write_i = model.register_address_i = model.register_writedata_i = 0;
+    model.fifo_read_i = model.fifo_write_i = model.fifo_address_i = model.fifo_writedata_i = 0;
+    model.test_pattern_i = 0;
+    model.rst_ni = 1;
+    model.eval();
+    for (const bool out_of_reset : {false, true}) {
+      model.rst_ni = out_of_reset;
+      model.eval();
+      for (int i = 0; i < 4; i++) {
+        clock();
+        vga_clock();
+      }
+    }
   }
-  void show_at(uint64_t time) {
-    wave_time = time;
-    if (wave.isOpen()) wave.dump(time);
-  }
-#else
-  static constexpr uint64_t wave_time = 0;
-  void wave_window() {}
-  void show_at(uint64_t) {}
-#endif
 
   void vga_clock() {
     model.vga_clk_i = 1;
     model.eval();
-    show_at(wave_time + kVgaHalf);
+    wave.show_at(wave.time() + kVgaHalf);
     model.vga_clk_i = 0;
     if (VM_TRACE || !vga_clock_falls(model.rootp, 0)) model.eval();
-    show_at(wave_time + kVgaHalf);
+    wave.show_at(wave.time() + kVgaHalf);
     vga_clocks++;
-    if (scan.empty()) return;
-    if (model.vga_blank_no) {
-      take_pixel();
-    } else if (!model.vga_vsync_no) {
-      // What was begun in the middle of a frame is none.
-      scan_at = 0;
-    }
-  }
-
-  void take_pixel() {
-    if (scan_at == 0) scan_swaps = swaps;
-    uint8_t* pixel = &scan[3 * scan_at];
-    pixel[0] = model.vga_red_o;
-    pixel[1] = model.vga_green_o;
-    pixel[2] = model.vga_blue_o;
-    if (++scan_at < kScreen) return;
-    scan_at = 0;
-    scan.swap(whole);
-    whole_swaps = scan_swaps;
-    whole_frames++;
+    scan.clock(model, swaps);
   }
 
   // Outputs are valid, for the inputs as they stand, before and after.
   void clock() {
-    wave_window();
-    const uint64_t start = std::max(clocks * kBusClock, wave_time + 1);
-    show_at(start);
+    wave.at_clock(clocks);
+    const uint64_t begin = std::max(clocks * kBusClock, wave.time() + 1);
+    wave.show_at(begin);
     model.clk_i = 1;
     model.eval();
-    show_at(start + kBusRises);
+    wave.show_at(begin + kBusRises);
     model.clk_i = 0;
     if (VM_TRACE || !bus_clock_falls(model.rootp, 0)) model.eval();
-    show_at(start + kBusFalls);
+    wave.show_at(begin + kBusFalls);
     clocks++;
     tiles += model.debug_tile_o;
     swaps += model.debug_front_o != front;
@@ -216,35 +165,20 @@ struct Sim {
 
 extern "C" {
 
-Sim* NAME(_new)() {
-  auto* sim = new Sim;
-  sim->model.rst_ni = 0;
-  sim->model.eval();
-  for (int i = 0; i < 4; i++) { sim->clock(); sim->vga_clock(); }
-  sim->model.rst_ni = 1;
-  for (int i = 0; i < 4; i++) { sim->clock(); sim->vga_clock(); }
+// The seed matters to builds with any state at power-on.
+Sim* NAME(_new)(uint32_t seed) {
+  auto* sim = new Sim(seed);
+  sim->start();
   return sim;
 }
 
-// Writes what happens from one bus clock to another to a file, or with none ends what is being
-// written; returns whether that is built in.
+// As Wave::record; returns whether waves are built in.
 uint32_t NAME(_wave)(Sim* sim, const char* file, uint64_t from, uint64_t to) {
-#if VM_TRACE
-  sim->wave.close();
-  // The model must know the wave before it is opened, once.
-  if (file && !sim->wave_known) sim->model.trace(&sim->wave, 99);
-  sim->wave_known |= file != nullptr;
-  sim->wave_file = file ? file : "";
-  sim->wave_from = from;
-  sim->wave_to = to;
-#endif
+  sim->wave.record(sim->model, file, from, to);
   return VM_TRACE;
 }
 
 void NAME(_free)(Sim* sim) {
-#if VM_TRACE
-  sim->wave.close();
-#endif
   sim->model.final();
   delete sim;
 }
@@ -267,30 +201,12 @@ uint32_t NAME(_swap_pending)(const Sim* sim) { return sim->model.debug_swap_pend
 uint64_t NAME(_run)(Sim* sim, uint64_t count, uint32_t leave_out) { return sim->run(count, leave_out); }
 uint64_t NAME(_swaps)(const Sim* sim) { return sim->swaps; }
 
-// Takes pictures from the pins from now on, or no longer.
-void NAME(_scan)(Sim* sim, uint32_t on) {
-  sim->scan.assign(on ? 3 * kScreen : 0, 0);
-  sim->whole.assign(on ? 3 * kScreen : 0, 0);
-  sim->scan_at = 0;
-  sim->whole_frames = 0;
-}
-
-// Copies the last whole picture, red, green, blue, and the number of swaps before it; returns whether there is one.
-uint32_t NAME(_scanned)(const Sim* sim, uint8_t* pixels, uint64_t* swaps) {
-  if (sim->whole_frames == 0) return 0;
-  if (pixels) std::copy(sim->whole.begin(), sim->whole.end(), pixels);
-  *swaps = sim->whole_swaps;
-  return 1;
-}
-
-// VGA clocks until the picture that is scanned out now, or in the blank the next one, is whole; and the
-// number of swaps before it.
+// As the functions of Scan.
+void NAME(_scan)(Sim* sim, uint32_t on) { sim->scan.set(on); }
+uint32_t NAME(_scanned)(const Sim* sim, uint8_t* pixels, uint64_t* swaps) { return sim->scan.whole(pixels, swaps); }
 uint64_t NAME(_scan_left)(const Sim* sim, uint64_t* swaps) {
-  const auto* root = sim->model.rootp;
-  const uint64_t line = root->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q;
-  const uint64_t end = kScreen / kScreenWidth;
-  *swaps = sim->scan_at > 0 ? sim->scan_swaps : sim->swaps;
-  return (line < end ? end - line : kLines - line + end) * kLineClocks;
+  *swaps = sim->scan.swaps_before(sim->swaps);
+  return Scan::left(sim->model.rootp->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q);
 }
 
 // Writes a word to the aperture; returns for how many clocks it was held.
@@ -310,6 +226,19 @@ uint64_t NAME(_push)(Sim* sim, uint32_t word) {
   model.fifo_write_i = 0;
   model.eval();
   return held;
+}
+
+// Reads a word of the aperture; returns what the bus has in the same clock, and in bit 32 whether it is held.
+uint64_t NAME(_read_aperture)(Sim* sim) {
+  auto& model = sim->model;
+  model.fifo_read_i = 1;
+  model.fifo_address_i = (model.fifo_address_i + 1) & 0x3ff;
+  model.eval();
+  const uint64_t answer = model.fifo_readdata_o | uint64_t{model.fifo_waitrequest_o} << 32;
+  sim->clock();
+  model.fifo_read_i = 0;
+  model.eval();
+  return answer;
 }
 
 // Writes words back to back as long as the device takes them.

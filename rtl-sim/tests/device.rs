@@ -56,6 +56,30 @@ fn unknown_addresses_read_zero_and_read_only_registers_ignore_writes() {
 }
 
 #[test]
+fn a_read_of_the_aperture_gives_zero_at_once_and_takes_nothing() {
+    for units in UNITS {
+        let mut pair = Pair::new(units);
+        // In the middle of a packet, and with the FIFO full.
+        let words = small_triangle().encode();
+        pair.push(&words[..5]);
+        assert_eq!(pair.rtl.read_aperture(), Some(0));
+        pair.push(&words[5..]);
+        pair.compare("after a read inside a packet");
+        pair.write(Register::Control, 0);
+        for _ in 0..93 {
+            pair.push(&words);
+        }
+        pair.push(&[Header::of(Kind::Swap).0]);
+        assert_eq!(Status(pair.rtl.read(Register::Status)).fifo_free(), 0);
+        assert_eq!(pair.rtl.read_aperture(), Some(0));
+        pair.write(Register::Control, enable());
+        assert_eq!(pair.rtl.read_aperture(), Some(0));
+        pair.compare("after reads of a full FIFO");
+        assert_eq!(pair.rtl.read(Register::Errors), 0);
+    }
+}
+
+#[test]
 fn every_way_to_be_bad_is_skipped_and_counted() {
     for units in UNITS {
         let mut pair = Pair::new(units);

@@ -6,7 +6,8 @@ module halfspace_sim
 #(
     parameter int unsigned PixelUnits = 8,
     parameter int unsigned FifoDepth = 1024,
-    parameter int unsigned FifoPatience = 1 << 22
+    parameter int unsigned FifoPatience = 1 << 22,
+    parameter bit InterruptWired = 1'b1
 ) (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -16,6 +17,8 @@ module halfspace_sim
     input  logic        register_write_i,
     input  logic [31:0] register_writedata_i,
     input  logic [9:0]  fifo_address_i,
+    input  logic        fifo_read_i,
+    output logic [31:0] fifo_readdata_o,
     input  logic        fifo_write_i,
     input  logic [31:0] fifo_writedata_i,
     output logic        fifo_waitrequest_o,
@@ -39,9 +42,10 @@ module halfspace_sim
 );
 
   halfspace #(
-      .PixelUnits  (PixelUnits),
-      .FifoDepth   (FifoDepth),
-      .FifoPatience(FifoPatience)
+      .PixelUnits    (PixelUnits),
+      .FifoDepth     (FifoDepth),
+      .FifoPatience  (FifoPatience),
+      .InterruptWired(InterruptWired)
   ) u_device (.*);
 
   assign debug_busy_o         = u_device.status.busy;

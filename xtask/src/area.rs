@@ -1,25 +1,29 @@
 //! What the FPGA's design takes of the device, as Yosys maps it: measured, written into
 //! `rtl/README.md`, read from there.
 
+mod sources;
+mod table;
+
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, ensure};
 use serde::Deserialize;
 
 use crate::measure::Measurement;
-use crate::paths::workspace_root;
-use crate::verilated::UNITS;
 use crate::yosys::{folder_with_design, run_yosys};
 
-const README: &str = "rtl/README.md";
-const BEGIN: &str = "<!-- area: written by `cargo xtask area` -->";
-const END: &str = "<!-- end of area -->";
+pub use table::{committed, ensure_fresh, write};
+
 /// What a 5CSEMA5 has: adaptive logic modules, flip-flops (four a module), memory blocks, multiplier blocks.
 const LIMITS: [u32; 4] = [32_070, 4 * 32_070, 397, 87];
 /// Memory blocks that the project allows a number of pixel units.
 const M10K_MAX: [(u32, u32); 2] = [(8, 320), (4, 310)];
+/// Look-up tables and adder bits that the project allows: 60 % of the modules, even if each held but one.
+const ALUTS_MAX: u32 = LIMITS[0] / 10 * 6;
+/// Multiplier blocks that the project allows.
+const DSP_MAX: u32 = 60;
 
 /// The design's area with one number of pixel units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,71 +105,22 @@ impl Area {
     fn check(&self) -> anyhow::Result<()> {
         let Self { units, m10k, flip_flops, .. } = *self;
         ensure!(m10k >= 300 && flip_flops < 20_000, "{units} pixel units: memories became flip-flops ({flip_flops})");
-        for (_, most) in M10K_MAX.iter().filter(|(of, _)| *of == units) {
-            ensure!(
-                m10k <= *most,
-                "{units} pixel units take {m10k} M10K, more than the {most} that the project allows"
-            );
+        for (what, value, most) in self.barred() {
+            if let Some(most) = most {
+                ensure!(
+                    value <= most,
+                    "{units} pixel units take {value} {what}, more than the {most} that the project allows"
+                );
+            }
         }
         Ok(())
     }
-}
 
-/// Returns the block of the README for these areas.
-pub fn block(areas: &[Area]) -> String {
-    let mut text = format!(
-        "{BEGIN}\n| pixel units | ALUTs | ALMs, at least | flip-flops | M10K | DSP | longest path, cells |\n\
-         | --- | --- | --- | --- | --- | --- | --- |\n"
-    );
-    for area in areas {
-        let Area { units, aluts, flip_flops, m10k, dsp, longest_path } = area;
-        let alms = area.alms_at_least();
-        text.push_str(&format!("| {units} | {aluts} | {alms} | {flip_flops} | {m10k} | {dsp} | {longest_path} |\n"));
+    /// What the project has bars for: name, value, largest allowed value.
+    fn barred(&self) -> [(&'static str, u32, Option<u32>); 3] {
+        let m10k_max = M10K_MAX.iter().find(|(units, _)| *units == self.units).map(|(_, most)| *most);
+        [("M10K", self.m10k, m10k_max), ("ALUTs", self.aluts, Some(ALUTS_MAX)), ("DSP blocks", self.dsp, Some(DSP_MAX))]
     }
-    let [alms, flip_flops, m10k, dsp] = LIMITS;
-    text.push_str(&format!("| 5CSEMA5 has | | {alms} | {flip_flops} | {m10k} | {dsp} | |\n{END}"));
-    text
-}
-
-/// Returns the README's path and its text before, in and behind the block.
-fn readme() -> anyhow::Result<(PathBuf, [String; 3])> {
-    let path = workspace_root().join(README);
-    let text = fs::read_to_string(&path).with_context(|| format!("cannot read {README}"))?;
-    let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?)));
-    let (before, (inside, behind)) =
-        parts.with_context(|| format!("{README} has lost its area table: put the lines `{BEGIN}` and `{END}` back"))?;
-    let parts = [before, inside, behind].map(str::to_string);
-    Ok((path, parts))
-}
-
-/// Writes the block, and returns whether it was another before.
-///
-/// # Errors
-/// When the README cannot be read or written, or has lost the lines around the block.
-pub fn write(areas: &[Area]) -> anyhow::Result<bool> {
-    let (path, [before, inside, behind]) = readme()?;
-    let block = block(areas);
-    let changed = format!("{BEGIN}{inside}{END}") != block;
-    fs::write(&path, format!("{before}{block}{behind}")).with_context(|| format!("cannot write {README}"))?;
-    Ok(changed)
-}
-
-/// Returns the areas that the README holds.
-///
-/// # Errors
-/// When it has no such table.
-pub fn committed() -> anyhow::Result<Vec<Area>> {
-    let (_, [_, inside, _]) = readme()?;
-    let areas: Vec<Area> = inside.lines().filter_map(parse_row).collect();
-    let units: Vec<u32> = areas.iter().map(|area| area.units).collect();
-    ensure!(units == UNITS, "the area table in {README} has rows for {units:?}: run `cargo xtask area`");
-    Ok(areas)
-}
-
-fn parse_row(line: &str) -> Option<Area> {
-    let numbers: Vec<u32> = line.trim_matches('|').split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
-    let [units, aluts, _, flip_flops, m10k, dsp, longest_path] = *numbers.as_slice() else { return None };
-    Some(Area { units, aluts, flip_flops, m10k, dsp, longest_path })
 }
 
 /// Returns the committed areas by the names of `cargo xtask bench`.
@@ -174,9 +129,14 @@ fn parse_row(line: &str) -> Option<Area> {
 /// As [`committed`].
 pub fn measurements() -> anyhow::Result<Vec<Measurement>> {
     let figures = |area: &Area| {
-        let name = |what: &str| format!("rtl.n{}.{what}", area.units);
-        [("m10k", area.m10k, "blocks"), ("aluts", area.aluts, "ALUTs"), ("dsp", area.dsp, "blocks")]
-            .map(|(what, value, unit)| Measurement::new(&name(what), f64::from(value), unit))
+        let units = area.units;
+        let [m10k, aluts, dsp] = area.barred();
+        [("m10k", m10k, "blocks"), ("aluts", aluts, "ALUTs"), ("dsp", dsp, "blocks")].map(
+            |(name, (_, value, most), unit)| Measurement {
+                bar: most.map(f64::from),
+                ..Measurement::new(&format!("rtl.n{units}.{name}"), f64::from(value), unit)
+            },
+        )
     };
     Ok(committed()?.iter().flat_map(figures).collect())
 }
@@ -184,6 +144,7 @@ pub fn measurements() -> anyhow::Result<Vec<Measurement>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verilated::UNITS;
 
     fn area() -> Area {
         Area { units: 8, aluts: 8067, flip_flops: 4291, m10k: 316, dsp: 0, longest_path: 71 }
@@ -213,16 +174,27 @@ mod tests {
         assert!(error.contains("became flip-flops"), "{error}");
         let error = Area { m10k: 321, ..area() }.check().expect_err("too many").to_string();
         assert!(error.contains("321 M10K, more than the 320"), "{error}");
+        let error = Area { aluts: 19_243, ..area() }.check().expect_err("too many").to_string();
+        assert!(error.contains("19243 ALUTs, more than the 19242"), "{error}");
+        let error = Area { dsp: 61, ..area() }.check().expect_err("too many").to_string();
+        assert!(error.contains("61 DSP blocks, more than the 60"), "{error}");
     }
 
     #[test]
-    fn rows_come_back_from_the_table() {
-        let block = block(&[area()]);
-        assert_eq!(block.lines().filter_map(parse_row).collect::<Vec<_>>(), [area()], "{block}");
+    fn the_committed_table_is_whole_and_within_the_bars() {
+        let areas = committed().expect("a table");
+        assert_eq!(areas.len(), UNITS.len());
+        areas.iter().for_each(|area| area.check().expect("within the bars"));
     }
 
     #[test]
-    fn the_committed_table_is_whole() {
-        assert_eq!(committed().expect("a table").len(), UNITS.len());
+    fn measurements_come_with_the_bars() {
+        let measurements = measurements().expect("a table");
+        let bar = |name: &str| measurements.iter().find(|it| it.name == name).expect("measured").bar;
+        assert_eq!(bar("rtl.n8.m10k"), Some(320.0));
+        assert_eq!(bar("rtl.n4.m10k"), Some(310.0));
+        assert_eq!(bar("rtl.n2.m10k"), None);
+        assert_eq!(bar("rtl.n1.aluts"), Some(19_242.0));
+        assert_eq!(bar("rtl.n8.dsp"), Some(60.0));
     }
 }

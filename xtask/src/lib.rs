@@ -16,6 +16,7 @@
 //! | [`render`] | a model file to a picture |
 //! | [`stream`] | files of packet words |
 //! | [`software_fpga`] | the FPGA's software model with memory of its own |
+//! | [`simulated`] | the DE1-SoC's simulator, as a program that is started |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
 //! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
@@ -27,7 +28,6 @@
 //! | [`model`] | a model from a file as a mesh |
 //! | [`log_decoder`] | turns the firmware's defmt bytes into text |
 //! | [`picture`] | RGB pictures, PNG, animated PNG and depth files |
-//! | [`obj`] | reads Wavefront OBJ models |
 //! | [`progress`], [`table`] | what is said while working, and what is shown at the end |
 //! | [`paths`] | where the workspace is and where results go |
 
@@ -56,7 +56,6 @@ pub mod log_decoder;
 pub mod machine;
 pub mod measure;
 pub mod model;
-pub mod obj;
 pub mod paths;
 pub mod picture;
 pub mod plot;
@@ -69,6 +68,7 @@ pub mod render;
 pub mod report;
 pub mod session;
 pub mod setup;
+pub mod simulated;
 pub mod software_fpga;
 pub mod stream;
 pub mod table;

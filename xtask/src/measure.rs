@@ -17,9 +17,11 @@ use geometry::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::card::program::{BYTES_MAX, Program};
 use crate::machine::{Link, Machine};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport, verdict};
 use crate::session::{self, ScenePart};
+use crate::simulated::{Design, Running};
 use crate::software_fpga::with_model;
 
 /// Runs of which the median counts.
@@ -30,6 +32,11 @@ const FRAMES: usize = 20;
 const SCREENS: i32 = 40;
 /// Frames of each scene on the board.
 const BOARD_FRAMES: usize = 8;
+/// Longest time from the DE1-SoC's entry to its first frame, in milliseconds.
+const FIRST_FRAME_MS: f64 = 300.0;
+/// Attempts to be quick, and frames of each.
+const ATTEMPTS: usize = 10;
+const ATTEMPT_FRAMES: u64 = 10;
 
 /// Most instructions that smooth shading may cost a vertex more than flat shading.
 const SMOOTH_EXTRA_INSTRUCTIONS_MAX: f64 = 25.0;
@@ -119,6 +126,41 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
         per("geometry.instructions_per_large_triangle", plate.instructions_per_triangle),
         per("geometry.instructions_per_clipped_scene_triangle", tunnel.instructions_per_triangle),
     ])
+}
+
+/// Returns how large the DE1-SoC's program is: code and constants.
+pub fn image(program: &Program) -> Measurement {
+    let bytes = program.bytes.len() as f64;
+    Measurement { bar: Some(BYTES_MAX as f64), ..Measurement::new("de1_soc.image_bytes", bytes, "bytes") }
+}
+
+/// Starts the DE1-SoC in its simulator and returns how long its start takes, in its own time, and how many frames
+/// of its first scene the simulator shows in a second of this computer's: the best of a few attempts, since other
+/// programs can only make it slower. `design` is in the FPGA.
+///
+/// # Errors
+/// When the simulator stops the firmware.
+pub fn on_simulator(board: &mut Running, design: Design) -> anyhow::Result<Vec<Measurement>> {
+    let mut done = board.frames(1)?;
+    let first = Measurement {
+        bar: Some(FIRST_FRAME_MS),
+        ..Measurement::new("de1_soc.first_frame_ms", done.nanoseconds as f64 / 1e6, "ms")
+    };
+    let (name, bar) = match design {
+        Design::Model => ("simulator.model_fps", 60.0),
+        Design::Rtl => ("simulator.rtl_fps", 15.0),
+    };
+    let mut best = 0.0_f64;
+    for _ in 0..ATTEMPTS {
+        let started = Instant::now();
+        done = board.frames(done.frames + ATTEMPT_FRAMES)?;
+        best = best.max(ATTEMPT_FRAMES as f64 / started.elapsed().as_secs_f64());
+    }
+    let rate = Measurement { bar: Some(bar), better: Better::Higher, ..Measurement::new(name, best, "frames/s") };
+    Ok(match design {
+        Design::Model => vec![first, rate],
+        Design::Rtl => vec![rate],
+    })
 }
 
 /// Times geometry and software model in this process.

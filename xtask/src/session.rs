@@ -206,12 +206,10 @@ pub fn play<M: Machine + ?Sized>(
     Ok(())
 }
 
-/// Returns the instructions that a duration stands for, when QEMU counts them.
-///
-/// With `-icount shift=N` an instruction takes 2^N nanoseconds of the machine's time.
+/// Returns the instructions that a duration stands for, on a machine where each takes the same time.
 pub fn instructions(ticks: u64, identity: &Identity) -> f64 {
     let nanoseconds = ticks as f64 * 1e9 / f64::from(identity.ticks_per_second);
-    nanoseconds / f64::from(1u32 << crate::qemu::ICOUNT_SHIFT)
+    nanoseconds / identity.nanoseconds_per_instruction
 }
 
 #[cfg(test)]

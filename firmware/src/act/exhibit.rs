@@ -7,13 +7,13 @@ use geometry::{Angle, Matrix};
 use super::Perform;
 use super::pose::Pose;
 use crate::scene::meshes::Shape;
-use crate::scene::stage::{Camera, DAYLIGHT, Object, Stage, lens};
+use crate::scene::stage::{Camera, DAYLIGHT, Object, Stage, Subject, lens};
 use crate::style::{Manner, Style};
 
 /// A model and its pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Exhibit {
-    shape: Shape,
+    subject: Subject,
     /// From the eye to its middle, in world units, and how far down the eye looks, in degrees.
     distance: I16F16,
     elevation: I16F16,
@@ -29,7 +29,7 @@ const REACH: I32F32 = I32F32::lit("1.6");
 impl Exhibit {
     /// The plate at its beginning.
     pub const PLATE: Self = Self {
-        shape: Shape::Plate,
+        subject: Subject::Shape(Shape::Plate),
         distance: I16F16::lit("3.4"),
         elevation: I16F16::lit("30"),
         rate: Angle::ZERO,
@@ -38,12 +38,15 @@ impl Exhibit {
     };
     /// The torus at its beginning, turning.
     pub const TORUS: Self = Self {
-        shape: Shape::Torus,
+        subject: Subject::Shape(Shape::Torus),
         distance: I16F16::lit("4"),
         elevation: I16F16::lit("38"),
         rate: Angle::from_bits((1 << 31) / 90),
         ..Self::PLATE
     };
+    /// The model of a mesh file at its beginning, turning.
+    pub const FOUND: Self =
+        Self { subject: Subject::Found, distance: I16F16::lit("3"), elevation: I16F16::lit("20"), ..Self::TORUS };
 
     /// Returns the projection of what lies around a point at `distance` from the eye and reaches `reach` from
     /// it. Where depth is shown it has as many levels as can be: near and far planes close in on the model.
@@ -73,7 +76,7 @@ impl Perform for Exhibit {
             view: self.pose.orbit(self.distance, self.elevation),
             projection: Self::lens(manner, distance, REACH),
         };
-        Stage::new(camera, DAYLIGHT, manner.style).with(Object::new(self.shape, tilted(state.tilt).times(&turning)))
+        Stage::new(camera, DAYLIGHT, manner.style).with(Object::new(self.subject, tilted(state.tilt).times(&turning)))
     }
 }
 

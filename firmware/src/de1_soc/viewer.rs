@@ -178,6 +178,10 @@ impl Board for ViewerBoard {
         None
     }
 
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        self.asked_mesh()
+    }
+
     /// A frame's fence waits for the vertical blank already.
     fn pace(&mut self) {}
 

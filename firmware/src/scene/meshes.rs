@@ -10,6 +10,7 @@ use geometry::mesh::Position;
 use geometry::shapes::{Corners, icosphere, torus};
 use geometry::{Face, Mesh, MeshError, VertexLook, Winding};
 
+use super::found::{self, Found};
 use super::plate;
 use memory::{LookMemory, MadeMemory};
 
@@ -189,6 +190,8 @@ pub struct Meshes<'a> {
     /// In the order of [`Shape::ALL`], whose last ones are the game's.
     models: [Model<'a>; Shape::ALL.len() - balancer::COUNT],
     balancer: [Model<'a>; balancer::COUNT],
+    /// The model of a mesh file.
+    found: Option<Found<'a>>,
 }
 
 impl<'a> Meshes<'a> {
@@ -237,7 +240,19 @@ impl<'a> Meshes<'a> {
                 memory.house.solid(Corners::Shared, house::house, None, counts)?,
             ],
             balancer: memory.balancer.models(counts)?,
+            // Made by `cargo xtask mesh`; a test reads it.
+            found: Found::new(found::BUILT_IN).ok(),
         })
+    }
+
+    /// Returns the model of a mesh file: the one that is built in, until there is another.
+    pub fn found(&self) -> Option<&Found<'a>> {
+        self.found.as_ref()
+    }
+
+    /// Has another mesh file's model in place of the one that is built in.
+    pub fn set_found(&mut self, found: Found<'a>) {
+        self.found = Some(found);
     }
 
     /// Returns the mesh of a shape.

@@ -10,21 +10,36 @@ use crate::style::{Projection, Style};
 /// Most objects of a scene.
 pub const MAX_OBJECTS: usize = 16;
 
+/// What an object is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// A mesh that is built in.
+    Shape(Shape),
+    /// The model of a mesh file, its middle at the origin and no more than 1 away from it.
+    Found,
+}
+
+impl From<Shape> for Subject {
+    fn from(shape: Shape) -> Self {
+        Self::Shape(shape)
+    }
+}
+
 /// A mesh in its place.
 #[derive(Debug, Clone, Copy)]
 pub struct Object {
     /// Its mesh.
-    pub shape: Shape,
+    pub subject: Subject,
     /// Model to world space; it may scale unevenly.
     pub model: Matrix,
-    /// Which of its faces are drawn.
+    /// Which of its faces are drawn; of a mesh file's, both sides where the file says so.
     pub culling: Culling,
 }
 
 impl Object {
     /// Returns a closed mesh in its place, drawn from its front.
-    pub fn new(shape: Shape, model: Matrix) -> Self {
-        Self { shape, model, culling: Culling::BackFaces }
+    pub fn new(subject: impl Into<Subject>, model: Matrix) -> Self {
+        Self { subject: subject.into(), model, culling: Culling::BackFaces }
     }
 }
 

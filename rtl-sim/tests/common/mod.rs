@@ -2,4 +2,5 @@
 #![allow(dead_code, unused_imports, reason = "every test binary uses its own part")]
 
 pub mod pair;
+pub mod stream;
 pub use rtl_sim::stimulus::{random, shapes};

@@ -2,7 +2,7 @@
 
 use fpga_regs::Port;
 use fpga_regs::packet::{Clear, Fence, swap};
-use fpga_regs::registers::{Control, Interrupts, Register, Status};
+use fpga_regs::registers::{Capabilities, Control, Interrupts, Register, Status};
 use fpga_regs::screen::{PIXELS, Rgb332, WIDTH};
 use raster_model::{Device, Memory};
 use rtl_sim::Rtl;
@@ -18,10 +18,17 @@ pub struct Pair {
 impl Pair {
     /// Returns both enabled, with the same memories: both buffers and the depth buffer cleared.
     pub fn new(units: u32) -> Self {
+        Self::of(Rtl::new(units))
+    }
+
+    /// Returns this device, just out of reset, and its model, made likewise.
+    pub fn of(mut rtl: Rtl) -> Self {
         let leak = |bytes: usize| vec![0u8; bytes].leak();
         let memory = Memory::new([leak(PIXELS), leak(PIXELS)], vec![0; PIXELS].leak()).expect("of the right sizes");
-        let model = Device::new(memory, vec![0; 1024].leak()).expect("of the right sizes").with_interrupt(true);
-        let mut pair = Self { rtl: Rtl::new(units), model };
+        let has = Capabilities(rtl.read(Register::Capabilities));
+        let fifo = vec![0; has.fifo_depth().into()].leak();
+        let model = Device::new(memory, fifo).expect("of the right sizes").with_interrupt(has.interrupt());
+        let mut pair = Self { rtl, model };
         pair.write(Register::Control, Control::default().with_enable(true).0);
         for _ in 0..2 {
             pair.push(&Clear { colour: Rgb332(0x1c), depth: 0xffff }.encode());
@@ -66,6 +73,7 @@ impl Pair {
             match register {
                 // The model has one pixel unit.
                 Register::Capabilities => expected = expected & !0xff_0000 | units << 16,
+                // The model has no clock: `clocks.rs` has those.
                 Register::BusyCycles | Register::StalledCycles => continue,
                 Register::Interrupts => {
                     let mask = Interrupts::default().with_low_water(true).0;

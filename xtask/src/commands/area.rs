@@ -40,6 +40,7 @@ pub fn run(arguments: &AreaArguments) -> anyhow::Result<()> {
         return Ok(());
     }
     if arguments.check {
+        area::ensure_fresh()?;
         ensure!(area::committed()? == areas, "the area table in rtl/README.md is stale: run `cargo xtask area`");
     } else if area::write(&areas)? {
         println!("rtl/README.md has the new figures");

@@ -9,14 +9,18 @@ use anyhow::{Context, ensure};
 
 use crate::area;
 use crate::boot::Bootable;
+use crate::card::program::Program;
 use crate::cli::{BenchArguments, Board};
 use crate::code_size;
 use crate::fill;
+use crate::firmware_build::build_firmware;
 use crate::frame_model;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
 use crate::session;
+use crate::setup::ensure_firmware_toolchain;
+use crate::simulated::{Build, Design, Simulator};
 use crate::table::{Column, Table};
 use crate::verilated::Verilated;
 
@@ -46,6 +50,16 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let fills = fill::measure(&verilated)?;
     measurements.extend(fill::measurements(&fills));
     step.done();
+    let toolchain = ensure_firmware_toolchain(&progress)?;
+    let elf = build_firmware(Board::De1Soc, &[], &toolchain, &progress)?;
+    measurements.push(measure::image(&Program::read(&elf)?));
+    for design in [Design::Model, Design::Rtl] {
+        let simulator = Simulator::prepare(design, false, Build::Optimised, &progress)?;
+        let step = progress.step("timing the DE1-SoC's simulator");
+        let mut board = simulator.start(&elf, &target_folder().join("bench/console.txt"))?;
+        measurements.extend(measure::on_simulator(&mut board, design)?);
+        step.done();
+    }
     let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
     measurements.push(code_size::measurement(&progress)?);

@@ -1,4 +1,5 @@
-//! `cargo xtask demo`: boots the firmware in QEMU and saves the frames of a recorded session.
+//! `cargo xtask demo`: boots the firmware in QEMU, or in the DE1-SoC's simulator, and saves the frames of a recorded
+//! session.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 
-use crate::boot::{Bootable, check_runs};
+use crate::boot;
 use crate::cli::{Board, DemoArguments};
 use crate::demo::{self, Played};
 use crate::golden::{self, Golden};
@@ -15,6 +16,7 @@ use crate::picture::{Picture, write_animated_png, write_png};
 use crate::progress::Progress;
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, Report, verdict};
 use crate::session::{self, ScenePart};
+use crate::simulated::Design;
 use crate::stream::to_bytes;
 
 /// How long the animation shows a frame.
@@ -30,17 +32,13 @@ const GAME_FRAMES: usize = 600;
 /// screen shows something else than it drew, or the results cannot be written.
 pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     let started = Instant::now();
-    check_runs(arguments.board)?;
     let progress = Progress::new();
     let parts = parts(arguments)?;
-    let bootable = Bootable::prepare(arguments.board, &progress)?;
     let folder = target_folder().join("demo");
     empty(&folder)?;
-    let step = progress.step(format!("booting {} in QEMU", arguments.board));
-    let mut machine = bootable.start(&folder)?;
-    step.done();
-    let played = demo::play(&mut machine, &parts, &progress)?;
-    machine.quit()?;
+    let mut machine = boot::start(arguments.board, Design::Model, None, &folder, &progress)?;
+    let played = demo::play(machine.as_mut(), &parts, &progress)?;
+    machine.end()?;
     let report = save(played, &folder, &progress)?;
     if let Some(path) = &arguments.dump {
         let step = progress.step(format!("writing the packet words to {}", path.display()));

@@ -17,6 +17,7 @@ pub fn text() -> String {
          an agent of its own, and so are a board's inputs and outputs.\n\n## Registers\n\n",
     );
     registers(&mut page, REGISTERS);
+    unusual_accesses(&mut page);
     packets(&mut page);
     sizes(&mut page);
     page.push_str(
@@ -52,6 +53,19 @@ fn registers(page: &mut String, table: &[RegisterInfo]) {
             let _ = writeln!(page, "| {} | {} |", register.name, field_row(field));
         }
     }
+}
+
+/// What no driver should do, and what then happens all the same.
+fn unusual_accesses(page: &mut String) {
+    page.push_str(
+        "\n### Where nothing is\n\n\
+         | access | what happens |\n| --- | --- |\n\
+         | read of an address of the register agent (4 KiB) at which no register is | gives 0 |\n\
+         | write to such an address, or to a register that is read only | is ignored, nothing is flagged |\n\
+         | read of the FIFO aperture | gives 0 at once, even while a write would wait; takes no word |\n\
+         | write to the FIFO aperture, whatever the word's address in it | appends the word |\n\
+         | write of a part of a word | is not defined: the agents take whole, aligned words and have no byte enables |\n",
+    );
 }
 
 fn de1_soc_addresses(page: &mut String) {

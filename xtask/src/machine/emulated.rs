@@ -70,4 +70,8 @@ impl Machine for Emulated {
         let picture = self.qemu.screen()?;
         Ok((raster_model::picture_checksum(&buffer_of_screen(&picture)?), picture))
     }
+
+    fn end(self: Box<Self>) -> anyhow::Result<()> {
+        self.quit()
+    }
 }

@@ -103,8 +103,8 @@ const MISTAKES: &[Mistake] = &[
     Mistake("fpga/system.tcl", "halfspace.vga_clock", "halfspace.vga_clk", "halfspace has no interface `vga_clk`"),
     Mistake(
         "fpga/system.tcl",
-        "add_connection bus_pll.outclk0 lock.clk",
-        "add_connection pll.outclk0 lock.clk",
+        "add_connection bus_pll.outclk0 hps.h2f_axi_clock",
+        "add_connection pll.outclk0 hps.h2f_axi_clock",
         "there is no instance `pll`",
     ),
     Mistake("fpga/system.tcl", "export vga conduit", "export video conduit", "vga_red"),
