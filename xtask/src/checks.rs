@@ -4,6 +4,7 @@ mod board;
 mod card;
 mod cargo;
 mod fpga;
+mod mesh;
 mod prove;
 mod rtl;
 mod simulator;
@@ -92,6 +93,9 @@ const CHECKS: &[Check] = &[
     },
     Check { name: "simulator: what goes wrong around the board is told and survived", run: simulator::faults },
     Check { name: "simulator: clippy finds nothing in its window and its FPGA", run: |_| simulator::clippy() },
+    Check { name: "the pictures of the five systems equal the golden ones on vexpress-a9", run: board::seeds },
+    Check { name: "a mesh of 70,000 triangles in memory is drawn, a broken one is named", run: mesh::in_memory },
+    Check { name: "the recorded game gives the same score on vexpress-a9", run: board::game },
     Check { name: "a serial line that loses bytes costs what it carried, no more", run: board::lossy_line },
     Check { name: "the firmware reports faults and panics, and ends", run: board::faults },
     Check { name: "usb: a keyboard on the root port", run: usb::on_the_root_port },

@@ -1,11 +1,13 @@
 //! The files that are written from one source and committed: the contract's reference page, its
 //! SystemVerilog packages, the page of the USB core's rules, the plate that the firmware shows, and the
-//! demonstration's session.
+//! sessions.
 
 mod board_package;
+mod game;
 mod plate;
 mod reference_page;
 mod rtl_package;
+mod seeds;
 mod session;
 mod usb_rules;
 
@@ -53,6 +55,8 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
         GeneratedFile { path: "docs/usb-rules.md", text: usb_rules::text() },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
+        GeneratedFile { path: crate::session::SEEDS, text: seeds::text() },
+        GeneratedFile { path: crate::session::GAME, text: game::text() },
     ])
 }
 

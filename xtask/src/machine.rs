@@ -8,12 +8,14 @@ mod simulated;
 use anyhow::bail;
 use controls::serial::{self, Decoder, FRAME_SIZE_MAXIMUM, kind};
 use firmware::link::{self, BoardMessage, Fault, FrameReport, HostMessage, Status};
+use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::picture::Picture;
 use crate::qemu::ICOUNT_SHIFT;
 
 pub use emulated::Emulated;
-pub use host::{with_host, with_recording_host};
+pub use host::{with_host, with_host_and_mesh, with_recording_host};
 pub use simulated::Simulated;
 
 /// A board's end of the link, and its screen.
@@ -149,6 +151,15 @@ impl<'a, M: Machine + ?Sized> Link<'a, M> {
     /// When the board does not take the message in time.
     pub fn run_freely(&mut self) -> anyhow::Result<()> {
         self.tell(HostMessage::Run)
+    }
+
+    /// Has the machine show another scene, or draw in another style.
+    ///
+    /// # Errors
+    /// When the board does not take the message in time.
+    pub fn show(&mut self, scene: Option<Scene>, style: Option<Style>) -> anyhow::Result<()> {
+        let (scene, style) = (scene.map(|scene| scene.index() as u8), style.map(|style| style.index() as u8));
+        self.tell(HostMessage::Show { scene, style })
     }
 
     /// Draws a frame and returns the board's report of it.

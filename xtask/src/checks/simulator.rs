@@ -62,7 +62,7 @@ fn image(state: &State) -> anyhow::Result<&Path> {
 
 /// Plays the first frames of the session's scenes, and compares each picture with the golden one.
 fn play(state: &State, design: Design, image: &Path, frames: [usize; 3]) -> anyhow::Result<()> {
-    let golden = Golden::read()?.with_context(|| format!("{} is missing", golden::PATH))?;
+    let golden = Golden::read(golden::DEMO)?.with_context(|| format!("{} is missing", golden::DEMO))?;
     let mut parts = session::demo()?;
     for (part, count) in parts.iter_mut().zip(frames) {
         part.frames.truncate(count);

@@ -15,7 +15,7 @@ use crate::paths::{for_display, target_folder};
 use crate::picture::{Picture, write_animated_png, write_png};
 use crate::progress::Progress;
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, Report, verdict};
-use crate::session;
+use crate::session::{self, ScenePart};
 use crate::simulated::Design;
 use crate::stream::to_bytes;
 
@@ -31,7 +31,7 @@ const FRAME_TIME: Duration = Duration::from_millis(50);
 pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     let started = Instant::now();
     let progress = Progress::new();
-    let parts = session::demo()?;
+    let parts = parts(arguments)?;
     let folder = target_folder().join("demo");
     empty(&folder)?;
     let mut machine = boot::start(arguments.board, Design::Model, &folder, &progress)?;
@@ -64,6 +64,18 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Returns what is played.
+fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
+    match arguments.scene {
+        Some(scene) => {
+            let all = [session::seeds()?, session::demo()?, session::game()?].concat();
+            Ok(all.into_iter().filter(|part| part.scene == scene).collect())
+        }
+        None if arguments.seeds => session::seeds(),
+        None => session::demo(),
+    }
+}
+
 /// Writes pictures and report.
 fn save(played: Played, folder: &Path, progress: &Progress) -> anyhow::Result<Report> {
     let step = progress.step(format!("writing {} pictures", played.pictures.len()));
@@ -79,12 +91,21 @@ fn save(played: Played, folder: &Path, progress: &Progress) -> anyhow::Result<Re
     Ok(played.report)
 }
 
-/// Compares a run with the golden one.
+/// Compares a run with the golden ones.
 fn golden_line(report: &Report) -> anyhow::Result<String> {
-    let Some(golden) = Golden::read()? else {
-        return Ok(format!("nothing to compare the frames with: there is no {}", golden::PATH));
-    };
-    Ok(match golden.check(&Golden::from(report)) {
+    let mut golden = Golden { scenes: Vec::new() };
+    for file in [golden::DEMO, golden::SEEDS] {
+        let Some(more) = Golden::read(file)? else {
+            return Ok(format!("nothing to compare the frames with: there is no {file}"));
+        };
+        golden.scenes.extend(more.scenes);
+    }
+    let run = Golden::from(report);
+    let golden = golden.played_in(&run);
+    if golden.scenes.is_empty() {
+        return Ok("no golden run has these scenes frame by frame".to_string());
+    }
+    Ok(match golden.check(&run) {
         Ok(()) => "every frame is equal to the golden run".to_string(),
         Err(difference) => format!("WARNING: the frames differ from the golden run: {difference}"),
     })

@@ -1,18 +1,21 @@
 //! `cargo xtask run`: the firmware live, in a window or headless.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, anyhow, bail, ensure};
+use firmware::scene::Scene;
+use models::Kind;
+use models::compile::{Options, compile};
 
 use crate::boot::{self, Bootable, start_with_log};
 use crate::cli::{Board, RunArguments};
-use crate::machine::Link;
+use crate::machine::{Emulated, Link, Machine};
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
-use crate::qemu::{QemuOptions, UsbDevice};
+use crate::qemu::{ICOUNT_SHIFT, QemuOptions, UsbDevice};
 use crate::session::{self, ScenePart};
 use crate::setup::ensure_qemu_window;
 use crate::simulated::Design;
@@ -29,7 +32,7 @@ const WINDOW_LIMIT: Duration = Duration::from_secs(365 * 24 * 3_600);
 pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     let design = design(arguments)?;
     match (arguments.headless, arguments.frames, &arguments.output) {
-        (true, Some(frames), Some(output)) => headless(arguments.board, design, frames, output),
+        (true, Some(frames), Some(output)) => headless(arguments, design, frames, output),
         _ if arguments.board.runs_in_qemu() => in_a_window(arguments),
         _ => in_the_simulator(arguments, design),
     }
@@ -46,11 +49,21 @@ fn design(arguments: &RunArguments) -> anyhow::Result<Design> {
 }
 
 /// Plays the recorded session, from its beginning and again if need be, and saves each frame.
-fn headless(board: Board, design: Design, count: u32, output: &Path) -> anyhow::Result<()> {
+fn headless(arguments: &RunArguments, design: Design, count: u32, output: &Path) -> anyhow::Result<()> {
     let progress = Progress::new();
-    let parts = session::demo()?;
+    let parts = parts(arguments)?;
     fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
-    let mut machine = boot::start(board, design, &target_folder().join("run"), &progress)?;
+    let folder = target_folder().join("run");
+    let mesh = mesh_file(arguments, &folder)?;
+    let mut machine: Box<dyn Machine> = if arguments.board.runs_in_qemu() {
+        let bootable = Bootable::prepare(arguments.board, &progress)?;
+        Box::new(bootable.start_with(&folder, |options| {
+            options.icount_shift = Some(ICOUNT_SHIFT);
+            options.mesh = mesh;
+        })?)
+    } else {
+        boot::start(arguments.board, design, &folder, &progress)?
+    };
     let step = progress.step(format!("drawing {count} frames"));
     let mut drawn = 0;
     let mut link = Link::new(machine.as_mut());
@@ -69,6 +82,38 @@ fn headless(board: Board, design: Design, count: u32, output: &Path) -> anyhow::
     Ok(())
 }
 
+/// Returns what is played: the demonstration's session or, of a scene or in a style that is named, the pictures of the
+/// five systems; a scene that has none there holds still.
+fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
+    if arguments.scene.is_none() && arguments.style.is_none() && arguments.model.is_none() {
+        return session::demo();
+    }
+    let first = if arguments.model.is_some() { Scene::Model } else { Scene::ALL[0] };
+    let scene = arguments.scene.unwrap_or(first);
+    let known = [session::seeds()?, session::demo()?, session::game()?].concat();
+    let named = known.into_iter().find(|part| part.scene == scene);
+    let part = named.unwrap_or(ScenePart { scene, style: None, frames: vec![None] });
+    Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
+}
+
+/// Returns the model that is named as a `.mesh` file, in `folder` unless it is one already.
+fn mesh_file(arguments: &RunArguments, folder: &Path) -> anyhow::Result<Option<PathBuf>> {
+    let Some(path) = &arguments.model else { return Ok(None) };
+    let board = arguments.board;
+    ensure!(board.runs_in_qemu(), "{board}'s simulator takes no --model yet: use `--board {}`", Board::VexpressA9);
+    // Its text names the cause already, which the chain of errors would say again.
+    let model = models::read(path).map_err(|error| anyhow!("{error}"))?;
+    if Kind::of_name(path) == Some(Kind::Mesh) {
+        return Ok(Some(path.clone()));
+    }
+    model.notes.iter().for_each(|note| println!("note: {note}"));
+    let compiled = compile(&model, &Options::default()).with_context(|| format!("cannot use {}", path.display()))?;
+    let file = folder.join("model.mesh");
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    fs::write(&file, compiled.bytes).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(Some(file))
+}
+
 /// Returns a session that is repeated and cut to `count` frames.
 fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
     let mut left = count;
@@ -79,7 +124,7 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
         }
         let frames = part.frames[..part.frames.len().min(left)].to_vec();
         left -= frames.len();
-        taken.push(ScenePart { scene: part.scene, frames });
+        taken.push(ScenePart { frames, ..part.clone() });
     }
     taken
 }
@@ -114,6 +159,8 @@ fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
 /// Runs the DE1-SoC's image in its simulator's window.
 fn in_the_simulator(arguments: &RunArguments, design: Design) -> anyhow::Result<()> {
     plugged_in(arguments)?;
+    let named = arguments.scene.is_some() || arguments.style.is_some() || arguments.model.is_some();
+    ensure!(!named, "the window of {}'s simulator takes no --scene, --style or --model: use its keys", arguments.board);
     let progress = Progress::new();
     let (simulator, elf) = boot::simulator(arguments.board, design, true, &progress)?;
     let folder = target_folder().join("run");
@@ -134,14 +181,17 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let mut options = QemuOptions::new(qemu, bootable.board, &bootable.elf);
     options.display = display;
     options.usb = plugged_in(arguments)?;
+    options.mesh = mesh_file(arguments, &folder)?;
     options.console_file = Some(folder.join("console.txt"));
     options.console_on_stdout = true;
     let (mut qemu, log) = start_with_log(&options, &folder)?;
     qemu.resume()?;
+    let mut machine = Emulated::new(qemu, log)?;
+    if arguments.scene.is_some() || arguments.style.is_some() {
+        Link::new(&mut machine).show(arguments.scene, arguments.style)?;
+    }
     println!("click into the window, then use the keyboard; close the window to end");
-    let status = qemu.wait_for_exit(WINDOW_LIMIT)?;
-    drop(qemu);
-    log.map(crate::log_decoder::LogDecoder::finish);
+    let status = machine.wait_for_exit(WINDOW_LIMIT)?;
     ensure!(status.success(), "the firmware ended with {status}; its last words stand above");
     Ok(())
 }
@@ -151,7 +201,6 @@ mod tests {
     use super::*;
     use crate::cli::{Cli, Task};
     use clap::Parser;
-    use firmware::scene::Scene;
 
     /// Returns what is plugged in, and the message when that is refused.
     fn plugged(line: &str) -> Result<usize, String> {
@@ -173,7 +222,7 @@ mod tests {
 
     #[test]
     fn a_session_is_repeated_and_cut() {
-        let part = |scene, count| ScenePart { scene, frames: vec![None; count] };
+        let part = |scene, count| ScenePart { scene, style: None, frames: vec![None; count] };
         let parts = [part(Scene::Plate, 3), part(Scene::Torus, 0), part(Scene::Tunnel, 2)];
         let lengths = |count| {
             let taken = first_frames(&parts, count);

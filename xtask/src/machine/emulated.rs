@@ -1,5 +1,6 @@
 //! The firmware in QEMU as a machine.
 
+use std::process::ExitStatus;
 use std::time::Duration;
 
 use super::Machine;
@@ -30,6 +31,17 @@ impl Emulated {
     /// Returns QEMU.
     pub fn qemu(&mut self) -> &mut Qemu {
         &mut self.qemu
+    }
+
+    /// Waits until the machine ends by itself and its log is written, and returns how it ended.
+    ///
+    /// # Errors
+    /// When it does not end in time.
+    pub fn wait_for_exit(mut self, patience: Duration) -> anyhow::Result<ExitStatus> {
+        let status = self.qemu.wait_for_exit(patience)?;
+        drop(self.qemu);
+        self.log.map(LogDecoder::finish);
+        Ok(status)
     }
 
     /// Ends the machine and waits until its log is written.
