@@ -3,13 +3,9 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`app`] | the application: controllers in, frames out |
-//! | [`viewer`] | which scene is shown, and how |
-//! | [`act`] | what each scene does: from what the controllers say to a stage |
-//! | [`scene`] | what there is to look at: meshes, and a stage of them with camera and light |
-//! | [`style`] | how scenes are drawn |
+//! | [`viewer`], [`act`], [`scene`], [`style`], [`legend`] | what there is to look at: the crate `scenes` |
 //! | [`frame`] | one frame: a stage to packets, and these to the FPGA |
 //! | [`intake`] | what controllers say, taken in and tallied |
-//! | [`legend`] | what each key does, as the console tells it |
 //! | [`left_in_memory`] | what somebody left in memory before the start |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
@@ -36,7 +32,6 @@
 ))]
 compile_error!("of the features `vexpress-a9`, `raspi2b` and `de1-soc` each names a board: choose one");
 
-pub mod act;
 pub mod app;
 pub mod armv7a;
 pub mod board;
@@ -47,17 +42,15 @@ pub mod de1_soc;
 pub mod frame;
 pub mod intake;
 pub mod left_in_memory;
-pub mod legend;
 pub mod link;
 pub mod mmio;
 pub mod pl011;
 pub mod ps2;
 pub mod raspi2b;
-pub mod scene;
 pub mod serial;
 pub mod software_fpga;
-pub mod style;
 #[cfg(all(target_arch = "arm", feature = "usb"))]
 pub mod usb;
 pub mod vexpress_a9;
-pub mod viewer;
+
+pub use scenes::{act, legend, scene, style, viewer};

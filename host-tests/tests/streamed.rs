@@ -148,13 +148,13 @@ fn a_smooth_file_s_faces_have_their_corners_mean() {
 }
 
 #[test]
-fn the_built_in_knot_is_the_compiled_asset() {
-    let model = models::read(&xtask::paths::workspace_root().join("assets/knot.glb")).expect("a good file");
-    let options = Options { looks: Looks::Smooth, scale_to_fit: true, ..Options::default() };
+fn the_built_in_file_is_the_compiled_asset() {
+    let model = models::read(&xtask::paths::workspace_root().join("assets/solids.obj")).expect("a good file");
+    let options = Options { scale_to_fit: true, ..Options::default() };
     let compiled = compile(&model, &options).expect("it compiles");
     assert!(
         compiled.bytes == BUILT_IN,
-        "stale: run `cargo xtask mesh assets/knot.glb -o assets/knot.mesh --smooth --scale-to-fit` and commit the result"
+        "stale: run `cargo xtask mesh assets/solids.obj -o assets/solids.mesh --scale-to-fit` and commit the result"
     );
     let first = Found::new(BUILT_IN).expect("a good file").blocks().next().expect("a block");
     assert!(first.positions.iter().copied().map(Block::position).any(|numbers| numbers != [0; 3]));

@@ -52,7 +52,7 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "docs/registers.md", text: reference_page::text() },
         GeneratedFile { path: "rtl/halfspace_pkg.sv", text: rtl_package::text() },
         GeneratedFile { path: "fpga/board_io_pkg.sv", text: board_package::text() },
-        GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
+        GeneratedFile { path: "scenes/src/scene/plate.rs", text: plate::text()? },
         GeneratedFile { path: "docs/usb-rules.md", text: usb_rules::text() },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
         GeneratedFile { path: crate::session::SEEDS, text: seeds::text() },

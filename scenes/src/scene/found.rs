@@ -10,8 +10,8 @@ pub use block::BlockMemory;
 
 use crate::style::Pass;
 
-/// The file that is built in: a knot.
-pub const BUILT_IN: &[u8] = include_bytes!("../../../assets/knot.mesh");
+/// The file that is built in: a dodecahedron and a prism.
+pub const BUILT_IN: &[u8] = include_bytes!("../../../assets/solids.mesh");
 
 /// A mesh file that was checked, and the way to fit its model into the unit sphere.
 #[derive(Debug, Clone, Copy)]

@@ -49,7 +49,7 @@ fn about(scene: Scene) -> &'static str {
         Scene::Polygons => {
             "polygons of 5, 6 and 12 corners cut through one another; Tab: depth as grey, or their colours"
         }
-        Scene::Model => "the mesh file that was found in memory, or a knot",
+        Scene::Model => "the mesh file that was found in memory, or two solids",
         Scene::Game => {
             "tilt the plate: arrows, W A S D, a stick or the pad. Roll over the targets and not off; quick ones count \
              more and more. Space: pause; R: another round"
