@@ -3,6 +3,7 @@
 use crate::edges::EdgeLatch;
 use crate::keyboard_state::KeyboardState;
 use crate::pad_state::{Movement, PadState};
+use crate::request::{RequestLatch, Requests};
 use crate::{
     Button, Config, ControllerState, DualShock3Report, KeyboardReport, PanelReport, Report, ReportError, Source, Stick,
     Tilt,
@@ -20,6 +21,7 @@ pub struct Controls {
     /// The panel's keys, as a keyboard's that do the same.
     panel: KeyboardState,
     edges: EdgeLatch,
+    requests: RequestLatch,
     /// The pose as it is, seen or not.
     tilt: Tilt,
     /// The tilt is the pad's, which moved last; else it is what the keys made of it. A pad that is
@@ -40,6 +42,7 @@ impl Controls {
             keyboard: KeyboardState::default(),
             panel: KeyboardState::default(),
             edges: EdgeLatch::default(),
+            requests: RequestLatch::default(),
             tilt: Tilt::LEVEL,
             pad_leads: false,
             frozen: None,
@@ -103,7 +106,7 @@ impl Controls {
     /// [`ReportError::KeyboardLength`]; nothing has changed then.
     pub fn accept_keyboard(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
         if let Some(report) = KeyboardReport::parse(bytes)?
-            && self.keyboard.update(report)
+            && self.keyboard.update(report.into())
         {
             self.last_moved = Some(Source::Keyboard);
             self.merge();
@@ -117,7 +120,7 @@ impl Controls {
     ///
     /// [`ReportError::PanelLength`]; nothing has changed then.
     pub fn accept_panel(&mut self, bytes: &[u8]) -> Result<(), ReportError> {
-        if self.panel.update(PanelReport::parse(bytes)?.as_keyboard()) {
+        if self.panel.update(PanelReport::parse(bytes)?.as_keys()) {
             self.last_moved = Some(Source::Panel);
             self.merge();
         }
@@ -145,9 +148,11 @@ impl Controls {
             right_stick: stick(|pad| pad.right_stick)
                 .merged(self.keyboard.right_stick())
                 .merged(self.panel.right_stick()),
+            arrows: self.keyboard.arrows().merged(self.panel.arrows()),
             held: self.edges.held,
             pressed: self.edges.pressed,
             released: self.edges.released,
+            asked: self.requests.first(),
             pad_present: self.pad.is_some(),
             battery: self.pad.map(|pad| pad.battery).unwrap_or_default(),
             last_moved: self.last_moved,
@@ -173,6 +178,7 @@ impl Controls {
             self.keys_lead();
         }
         self.edges.end_frame();
+        self.requests.end_frame();
     }
 
     /// Makes one of both sources after either has changed.
@@ -189,6 +195,8 @@ impl Controls {
             self.tilt = Tilt::LEVEL;
             self.keys_lead();
         }
+        let keys = self.keyboard.requests().union(self.panel.requests());
+        self.requests.update(keys.union(Requests::of_buttons(held)));
         self.frozen = held.contains(Button::Cross).then_some(self.frozen.unwrap_or(before));
     }
 

@@ -53,9 +53,14 @@ impl KeyAxes {
         Self(self.0 & !other.0)
     }
 
+    /// Returns whether the set has a direction.
+    pub(crate) fn contains(self, axis: KeyAxis) -> bool {
+        self.0 >> axis as u16 & 1 == 1
+    }
+
     /// Returns 1, −1, or 0 if neither direction or both are in the set.
     pub(crate) fn balance(self, positive: KeyAxis, negative: KeyAxis) -> i32 {
-        let has = |axis: KeyAxis| i32::from(self.0 >> axis as u16 & 1);
+        let has = |axis: KeyAxis| i32::from(self.contains(axis));
         has(positive) - has(negative)
     }
 

@@ -1,12 +1,28 @@
 //! What the keyboard does to the state.
 
 use crate::key_axes::KeyAxes;
-use crate::{Buttons, KeyAction, KeyAxis, KeyboardReport, Stick, key_action};
+use crate::request::Requests;
+use crate::{Buttons, KeyAction, KeyAxis, KeyboardReport, Request, Stick, key_action};
+
+/// The keys that are down, as usages, 0 for none. Room for the panel's, of which there are more than
+/// a keyboard's report has; modifiers do nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Keys(pub(crate) [u8; 8]);
+
+impl From<KeyboardReport> for Keys {
+    fn from(report: KeyboardReport) -> Self {
+        let mut keys = Self::default();
+        for (key, usage) in keys.0.iter_mut().zip(report.usages) {
+            *key = usage;
+        }
+        keys
+    }
+}
 
 /// Keeps what the keys that are down do, and what those that were tapped in this frame did.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct KeyboardState {
-    report: KeyboardReport,
+    keys: Keys,
     pub(crate) held: Buttons,
     axes: KeyAxes,
     /// Those that went down in this frame, even if they are up again: a tap is one frame's step,
@@ -15,13 +31,13 @@ pub(crate) struct KeyboardState {
 }
 
 impl KeyboardState {
-    /// Takes in a report and tells whether it differs from the last one.
-    pub(crate) fn update(&mut self, report: KeyboardReport) -> bool {
-        if report == self.report {
+    /// Takes in the keys that are down and tells whether they differ from the last ones.
+    pub(crate) fn update(&mut self, keys: Keys) -> bool {
+        if keys == self.keys {
             return false;
         }
-        let mut next = Self { report, axes_pressed: self.axes_pressed, ..Self::default() };
-        for action in report.held().filter_map(key_action) {
+        let mut next = Self { keys, axes_pressed: self.axes_pressed, ..Self::default() };
+        for action in keys.0.into_iter().filter_map(key_action) {
             match action {
                 KeyAction::Button(button) => next.held |= button.into(),
                 KeyAction::Axis(axis) => next.axes.insert(axis),
@@ -55,10 +71,32 @@ impl KeyboardState {
         }
     }
 
+    /// Returns where the arrow keys point.
+    pub(crate) fn arrows(&self) -> Stick {
+        let pushed = self.pushed();
+        Stick {
+            x: pushed.deflection(KeyAxis::RollRight, KeyAxis::RollLeft),
+            y: pushed.deflection(KeyAxis::PitchUp, KeyAxis::PitchDown),
+        }
+    }
+
     /// Returns which way the arrows turn roll and pitch: −1, 0 or 1 each.
     pub(crate) fn turning(&self) -> [i32; 2] {
         let pushed = self.pushed();
         [pushed.balance(KeyAxis::RollLeft, KeyAxis::RollRight), pushed.balance(KeyAxis::PitchUp, KeyAxis::PitchDown)]
+    }
+
+    /// Returns the steps that the keys that are down ask for.
+    pub(crate) fn requests(&self) -> Requests {
+        let asks = [
+            (KeyAxis::RollLeft, Request::Left),
+            (KeyAxis::RollRight, Request::Right),
+            (KeyAxis::PitchUp, Request::Up),
+            (KeyAxis::PitchDown, Request::Down),
+            (KeyAxis::ZoomIn, Request::Nearer),
+            (KeyAxis::ZoomOut, Request::Farther),
+        ];
+        asks.into_iter().filter(|(axis, _)| self.axes.contains(*axis)).map(|(_, request)| request).collect()
     }
 
     /// Forgets the directions that are up again.

@@ -32,7 +32,10 @@
 //! | centre | L3 (push the left stick) | F | pan, turn and zoom are as at the start |
 //! | next style | Triangle | Tab | flat, smooth, wireframe, hidden lines, depth as grey |
 //! | projection | Square | V | perspective or orthographic |
-//! | no effect yet | D-pad; Circle, PS; L1, R1; L2, R2 | I J K L; C, Escape; 1, 2; 3, 4 | read and reported; the viewer has no use for them yet |
+//! | other mode | Circle; R1 while held | C; 2 while held | what the scene has two of: orbit and flight, turning and moving |
+//! | steps | D-pad; R2, L2 | arrows or I J K L; zoom keys or 4, 3 | [`asked`](ControllerState::asked): one step a frame, the first asked for first |
+//! | legend | PS | H, ?, Escape | the console tells what each key does |
+//! | no effect yet | L1 | 1 | read and reported; the viewer has no use for it yet |
 //!
 //! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
 //! every other control is the viewer's, in `firmware`. The DE1-SoC's own keys and switches do what the
@@ -68,6 +71,7 @@ mod pad_state;
 mod panel;
 mod report;
 mod report_error;
+mod request;
 pub mod serial;
 mod source;
 mod state;
@@ -87,6 +91,7 @@ pub use low_pass::LowPass;
 pub use panel::PanelReport;
 pub use report::Report;
 pub use report_error::ReportError;
+pub use request::Request;
 pub use source::Source;
 pub use state::ControllerState;
 pub use stick::{Stick, StickResponse};

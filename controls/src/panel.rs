@@ -1,6 +1,7 @@
 //! A board's own push buttons and slide switches.
 
-use crate::{KeyboardReport, ReportError};
+use crate::ReportError;
+use crate::keyboard_state::Keys;
 
 /// Holds what the DE1-SoC's own buttons and switches are.
 ///
@@ -18,7 +19,9 @@ use crate::{KeyboardReport, ReportError};
 /// | up | down | turn left | nearer | farther | turn right |
 /// | up | up | previous scene | level | centre | next scene |
 ///
-/// SW2 up freezes the pose. The processor's key goes to the next scene.
+/// SW2 up freezes the pose. SW3 up holds R1, which gives the scene's other mode. SW4 up, whatever SW1 and
+/// SW0 say: KEY3 has the legend told, KEY2 changes the scene's mode, KEY1 the projection, KEY0 the style.
+/// The processor's key goes to the next scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PanelReport {
@@ -28,15 +31,18 @@ pub struct PanelReport {
     pub switches: u16,
 }
 
-/// What KEY3 to KEY0 stand for, by the number that SW1 and SW0 make: usages of a keyboard's keys.
-const KEYS: [[u8; 4]; 4] = [
+/// What KEY3 to KEY0 stand for, by the number that SW1 and SW0 make, and last with SW4 up: usages of a
+/// keyboard's keys.
+const KEYS: [[u8; 4]; 5] = [
     [0x50, 0x52, 0x51, 0x4F], // arrows: left, up, down, right
     [0x04, 0x1A, 0x16, 0x07], // A, W, S, D
     [0x14, 0x2E, 0x2D, 0x08], // Q, +, -, E
     [0x2A, 0x15, 0x09, 0x28], // Backspace, R, F, Enter
+    [0x0B, 0x06, 0x19, 0x2B], // H, C, V, Tab
 ];
 const SPACE: u8 = 0x2C;
 const ENTER: u8 = 0x28;
+const TWO: u8 = 0x1F;
 
 impl PanelReport {
     /// The report's length in bytes.
@@ -62,19 +68,20 @@ impl PanelReport {
     }
 
     /// Returns the keyboard's keys that do the same.
-    pub(crate) fn as_keyboard(self) -> KeyboardReport {
-        let row = KEYS[usize::from(self.switches & 0b11)];
+    pub(crate) fn as_keys(self) -> Keys {
+        let row = if self.switches & 1 << 4 != 0 { 4 } else { usize::from(self.switches & 0b11) };
         let held = |holds: bool, usage: u8| if holds { usage } else { 0 };
-        let [key3, key2, key1, key0] = row;
-        let usages = [
+        let [key3, key2, key1, key0] = KEYS[row];
+        Keys([
             held(self.keys & 1 << 3 != 0, key3),
             held(self.keys & 1 << 2 != 0, key2),
             held(self.keys & 1 << 1 != 0, key1),
             held(self.keys & 1 << 0 != 0, key0),
             held(self.keys & 1 << 4 != 0, ENTER),
             held(self.switches & 1 << 2 != 0, SPACE),
-        ];
-        KeyboardReport { modifiers: 0, usages }
+            held(self.switches & 1 << 3 != 0, TWO),
+            0,
+        ])
     }
 }
 
@@ -121,7 +128,23 @@ mod tests {
         assert_eq!(after(0b1_0000, 0).pressed, Button::Start.into());
         assert_eq!(after(0b1_0000, 0).last_moved, Some(Source::Panel));
         // The display's test pattern, and switches without a meaning.
-        assert_eq!(after(0, 0b11_1111_1000), ControllerState { last_moved: None, ..after(0, 0) });
+        assert_eq!(after(0, 0b11_1110_0000), ControllerState { last_moved: None, ..after(0, 0) });
+    }
+
+    #[test]
+    fn a_fifth_row_chooses_how_the_scene_is_drawn() {
+        for (keys, button) in
+            [(0b1000, Button::Ps), (0b0100, Button::Circle), (0b0010, Button::Square), (0b0001, Button::Triangle)]
+        {
+            for others in 0..4 {
+                assert_eq!(after(keys, 0b1_0000 | others).pressed, button.into());
+            }
+        }
+        assert_eq!(after(0, 0b1000).held, Button::R1.into());
+        let all = after(0b1_1111, 0b1_1100).held;
+        let expected =
+            [Button::Ps, Button::Circle, Button::Square, Button::Triangle, Button::Start, Button::Cross, Button::R1];
+        assert_eq!(all, expected.into_iter().collect(), "all at once");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the application sees.
 
-use crate::{Battery, Buttons, Source, Stick, Tilt};
+use crate::{Battery, Buttons, Request, Source, Stick, Tilt};
 use fixed::types::I2F14;
 
 /// Holds everything that the controls say in one frame, whatever it came from.
@@ -17,12 +17,16 @@ pub struct ControllerState {
     pub left_stick: Stick,
     /// The right stick.
     pub right_stick: Stick,
+    /// The way that the arrow keys point, 0 or ±1 in each axis; what they do to the tilt is in `tilt` already.
+    pub arrows: Stick,
     /// The buttons that are down now.
     pub held: Buttons,
     /// The buttons that went down in this frame, even if they are up again.
     pub pressed: Buttons,
     /// The buttons that went up in this frame, even if they are down again.
     pub released: Buttons,
+    /// The step of this frame: of those that were asked for and not yet done, the first.
+    pub asked: Option<Request>,
     /// A pad has reported and not been disconnected.
     pub pad_present: bool,
     /// How full the pad's battery is.

@@ -150,7 +150,7 @@ fn key_buttons(report: &[u8]) -> u32 {
         0x06 => 1 << 13,
         0x2C => 1 << 14,
         0x19 => 1 << 15,
-        0x29 => 1 << 16,
+        0x0B | 0x29 | 0x38 => 1 << 16,
         _ => 0,
     };
     report[2..].iter().map(button).fold(0, |held, bit| held | bit)

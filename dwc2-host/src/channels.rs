@@ -71,6 +71,11 @@ impl State<'_> {
             return;
         }
         self.give_up_late_splits();
+        let is_due =
+            |slot: &Slot| matches!(slot.activity, Activity::Waiting { from } if from <= now + slot.endpoint.lead_us());
+        if !self.slots.iter().flatten().any(is_due) {
+            return self.watch_frames(now);
+        }
         for rank in RANKS {
             for index in 0..PIPES {
                 let Some(frame) = self.turn_of(index, rank, now) else { continue };
@@ -102,8 +107,9 @@ impl State<'_> {
         }
         let next = (frame + 1) % FRAME_NUMBERS;
         match (endpoint.route, slot.effort.split) {
-            (Route::Split { .. }, Split::Complete { start }) => {
-                (rank == Rank::Complete(frames_since(next, start))).then_some(next)
+            (Route::Split { hub, .. }, Split::Complete { start }) => {
+                let due = rank == Rank::Complete(frames_since(next, start));
+                (due && !self.runs_older_split(hub, start)).then_some(next)
             }
             (Route::Split { hub, .. }, Split::Start) => {
                 let taken = |other: &Slot| other.last_start == Some(next) && other.endpoint.hub() == Some(hub);
@@ -113,6 +119,19 @@ impl State<'_> {
             (Route::Preamble, _) if self.preamble_frame == Some(next) => None,
             _ => (rank == Rank::Periodic).then_some(next),
         }
+    }
+
+    /// A complete split is on its way whose start split is older than this one: it may have to go out again, and then
+    /// goes first.
+    fn runs_older_split(&self, hub: u8, start: u16) -> bool {
+        let older = |slot: &Slot| match (slot.activity, slot.effort.split) {
+            (Activity::Running { .. }, Split::Complete { start: other }) => {
+                let age = frames_since(start, other);
+                slot.endpoint.periodic() && slot.endpoint.hub() == Some(hub) && (1..=LAST_COMPLETE_SPLIT).contains(&age)
+            }
+            _ => false,
+        };
+        self.slots.iter().flatten().any(older)
     }
 
     /// Another pipe to the same control endpoint is in the middle of a transfer.

@@ -62,12 +62,19 @@ impl Endpoint {
             Some(_) if root == Speed::Full && slow => Route::Preamble,
             _ => Route::Direct,
         };
-        let bytes = info.max_packet_size;
-        // USB 2.0 §5.5.3 and §5.8.3. Packets of these sizes keep every DMA address on a multiple of four.
-        let size_exists = match kind {
-            Kind::Control => matches!(bytes, 8 | 16 | 32 | 64),
-            Kind::Bulk => matches!(bytes, 8 | 16 | 32 | 64 | 512),
-            Kind::Interrupt => bytes > 0,
+        let (bytes, low_speed) = (info.max_packet_size, slow || root == Speed::Low);
+        let high_speed = root == Speed::High && route == Route::Direct;
+        // USB 2.0 §5.5.3, §5.7.3 and §5.8.3. Packets of these sizes keep every DMA address on a multiple of four.
+        let size_exists = match (kind, low_speed, high_speed) {
+            (Kind::Control, true, _) => bytes == 8,
+            (Kind::Control, _, true) => bytes == 64,
+            (Kind::Control, ..) => matches!(bytes, 8 | 16 | 32 | 64),
+            (Kind::Interrupt, true, _) => matches!(bytes, 1..=8),
+            (Kind::Interrupt, _, true) => matches!(bytes, 1..=1_024),
+            (Kind::Interrupt, ..) => matches!(bytes, 1..=64),
+            (Kind::Bulk, true, _) => false,
+            (Kind::Bulk, _, true) => bytes == 512,
+            (Kind::Bulk, ..) => matches!(bytes, 8 | 16 | 32 | 64),
         };
         if !size_exists || address > 127 || info.addr.index() > 15 {
             return Err(HostError::InvalidDescriptor);
@@ -80,8 +87,8 @@ impl Endpoint {
             number: info.addr.index() as u8,
             kind,
             packet_bytes: bytes,
-            low_speed: slow || root == Speed::Low,
-            high_speed: root == Speed::High && !matches!(route, Route::Split { .. }),
+            low_speed,
+            high_speed,
             route,
             interval_us: u32::from(info.interval_ms.max(1)) * 1_000,
         })

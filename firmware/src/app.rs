@@ -2,6 +2,7 @@
 
 use core::fmt::Write;
 
+use controls::Button;
 use controls::serial::{Decoder, FRAME_SIZE_MAXIMUM, kind};
 use fpga_regs::{RenderError, Renderer, Wait};
 use geometry::MeshError;
@@ -9,8 +10,12 @@ use geometry::MeshError;
 use crate::board::Board;
 use crate::frame::{FrameMemory, draw_frame};
 use crate::intake::Intake;
+use crate::legend;
 use crate::link::{self, BoardMessage, FrameReport, HostMessage, Status};
-use crate::scene::{MeshMemory, Meshes, Scene};
+use crate::scene::Scene;
+use crate::scene::found::Found;
+use crate::scene::meshes::{MeshMemory, Meshes};
+use crate::style::{Manner, Style};
 use crate::viewer::Viewer;
 
 /// Memory that the application works in; large, so a static.
@@ -45,18 +50,21 @@ pub struct Application<'a, B: Board, W> {
 }
 
 impl<'a, B: Board, W: Wait> Application<'a, B, W> {
-    /// Returns the application on a board and its renderer, at the beginning of the first scene.
+    /// Returns the application on a board and its renderer, at the beginning of the first scene; or, if a mesh
+    /// file was found in memory, of the scene that shows it. The console is told of one, whatever it is.
     ///
     /// # Errors
     /// [`MeshError`] if a built-in mesh is malformed.
-    pub fn new(board: B, renderer: Renderer<B::Port, W>, memory: &'a mut Memory) -> Result<Self, MeshError> {
+    pub fn new(mut board: B, renderer: Renderer<B::Port, W>, memory: &'a mut Memory) -> Result<Self, MeshError> {
+        let mut meshes = Meshes::new(&mut memory.meshes)?;
+        let scene = take_mesh_file(&mut board, &mut meshes);
         Ok(Self {
             board,
             renderer,
-            meshes: Meshes::new(&mut memory.meshes)?,
+            meshes,
             frame_memory: &mut memory.frame,
             intake: Intake::new(),
-            viewer: Viewer::new(Scene::Plate),
+            viewer: Viewer::new(scene),
             decoder: Decoder::new(),
             frame: 0,
             frame_end: 0,
@@ -78,10 +86,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
             capabilities.fifo_depth(),
             B::LACKS
         );
-        let _ = writeln!(
-            self.board.console(),
-            "arrows tilt, Space freezes, Enter: next scene, Tab: next style, V: projection, W A S D pan, Q E turn, + - zoom, R level"
-        );
+        let _ = legend::tell(self.viewer.scene(), self.board.console());
     }
 
     /// Takes in what controllers and the PC have said, and draws a frame unless a PC steps them.
@@ -109,21 +114,20 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     /// [`RenderError`] of the renderer, which then wants a reset.
     pub fn draw(&mut self) -> Result<FrameReport, RenderError> {
         let state = self.intake.state();
-        let (before, style_before) = (self.viewer.scene(), self.viewer.style());
+        let before = (self.viewer.scene(), self.viewer.manner(), self.viewer.mode());
         self.viewer.update(&state);
         self.intake.end_frame();
-        let scene = self.viewer.scene();
-        if scene != before {
-            let _ = writeln!(self.board.console(), "scene: {}", scene.name());
-        }
-        if self.viewer.style() != style_before {
-            let _ = writeln!(self.board.console(), "style: {}", self.viewer.style().name());
-        }
-        let view = self.viewer.view(&state);
+        self.tell_changes(before, state.pressed.contains(Button::Ps));
+        let Self { board, viewer, .. } = self;
+        // A console that takes nothing leaves nobody to tell.
+        let _ = viewer.tell(board.console());
+        let score = viewer.score();
+        board.show_score(score);
+        let stage = self.viewer.stage(&state);
         let Self { board, renderer, meshes, frame_memory, .. } = self;
-        let report = draw_frame((meshes, scene), &view, frame_memory, renderer, || board.ticks())?;
+        let report = draw_frame(meshes, &stage, frame_memory, renderer, || board.ticks())?;
         let checksum = if self.stepping { self.board.picture_checksum(self.renderer.port()) } else { None };
-        let report = FrameReport { index: self.frame, checksum, ..report };
+        let report = FrameReport { index: self.frame, score, checksum, ..report };
         self.frame = self.frame.wrapping_add(1);
         self.board.heartbeat(self.frame);
         let now = self.board.ticks();
@@ -155,6 +159,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
                     self.send(&BoardMessage::Failed);
                 }
             },
+            HostMessage::Show { scene, style } => self.show(scene, style),
             HostMessage::Run => self.stepping = false,
             HostMessage::Ask => {
                 let slowest_frame_ticks = u32::try_from(self.slowest_frame).unwrap_or(u32::MAX);
@@ -179,6 +184,51 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     /// Returns the board and the renderer, for what the application does not do.
     pub fn parts(&mut self) -> (&mut B, &mut Renderer<B::Port, W>) {
         (&mut self.board, &mut self.renderer)
+    }
+
+    /// Says on the console what the last update has changed, and the legend if that was asked for.
+    fn tell_changes(&mut self, (scene, manner, mode): (Scene, Manner, Option<&'static str>), wants_legend: bool) {
+        let Self { board, viewer, .. } = self;
+        let (now, console) = (viewer.manner(), board.console());
+        // A console that takes nothing leaves nobody to tell.
+        let _ = match (wants_legend, viewer.scene() != scene) {
+            (true, _) => legend::tell(viewer.scene(), console),
+            (false, true) => legend::tell_scene(viewer.scene(), console),
+            _ => Ok(()),
+        };
+        if now.style != manner.style {
+            let _ = writeln!(console, "style: {}", now.style.name());
+        }
+        if now.projection != manner.projection {
+            let _ = writeln!(console, "projection: {}", now.projection.name());
+        }
+        if viewer.scene() == scene
+            && let Some(now) = viewer.mode().filter(|now| mode != Some(*now))
+        {
+            let _ = writeln!(console, "mode: {now}");
+        }
+    }
+
+    /// Shows another scene, or in another style, as a PC wants it.
+    fn show(&mut self, scene: Option<u8>, style: Option<u8>) {
+        let known_scene = scene.map(|scene| Scene::ALL.get(usize::from(scene)).copied());
+        let known_style = style.map(|style| Style::from_index(style.into()));
+        if let (Some(None), _) | (_, Some(None)) = (known_scene, known_style) {
+            let (scenes, styles) = (Scene::ALL.len() - 1, Style::ALL.len() - 1);
+            let _ = writeln!(
+                self.board.console(),
+                "link: scene {scene:?} in style {style:?} is not there: scenes are 0 to {scenes}, styles 0 to {styles}"
+            );
+            return;
+        }
+        let before = (self.viewer.scene(), self.viewer.manner(), self.viewer.mode());
+        if let Some(scene) = known_scene.flatten() {
+            self.viewer = Viewer::new(scene);
+        }
+        if let Some(style) = known_style.flatten() {
+            self.viewer.set_style(style);
+        }
+        self.tell_changes(before, false);
     }
 
     fn poll_link(&mut self) {
@@ -230,6 +280,32 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         self.board.show_fault();
         if let Err(error) = self.renderer.restart() {
             let _ = writeln!(self.board.console(), "renderer: {error}");
+        }
+    }
+}
+
+/// Looks for a mesh file that was left in memory, and returns the scene to begin with.
+fn take_mesh_file<'a, B: Board>(board: &mut B, meshes: &mut Meshes<'a>) -> Scene {
+    let Some(bytes) = board.mesh_file() else { return Scene::Plate };
+    match Found::new(bytes) {
+        Ok(found) => {
+            let header = found.header();
+            let _ = writeln!(
+                board.console(),
+                "mesh in memory: {} triangles, {} edges, {} vertices in {} blocks; scene `{}` shows it",
+                header.faces,
+                header.edges,
+                header.vertices,
+                header.blocks,
+                Scene::Model.name()
+            );
+            meshes.set_found(found);
+            Scene::Model
+        }
+        Err(error) => {
+            let _ = writeln!(board.console(), "mesh in memory: {error}; the one that is built in stays");
+            board.show_fault();
+            Scene::Plate
         }
     }
 }

@@ -38,11 +38,21 @@ pub trait Board {
     /// Returns the CRC-32 of the picture that shows, where the processor can see it.
     fn picture_checksum(&mut self, port: &mut Self::Port) -> Option<u32>;
 
+    /// Returns memory that begins with a mesh file which somebody left there before the program started, if
+    /// something is there. Asked once.
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        None
+    }
+
     /// Waits until the next frame is due, where showing one does not wait by itself.
     fn pace(&mut self);
 
     /// Shows a sign of life; called once a frame.
     fn heartbeat(&mut self, frame: u32);
+
+    /// Shows the points of the game, where the board has digits for them; `None` while no game is played. Called
+    /// once a frame.
+    fn show_score(&mut self, _score: Option<u32>) {}
 
     /// Shows that something went wrong; the console says what.
     fn show_fault(&mut self) {}

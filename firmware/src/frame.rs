@@ -1,17 +1,19 @@
-//! One frame: a scene's mesh to packets, and these to the FPGA.
+//! One frame: a stage's objects to packets, and these to the FPGA.
 
 use core::ops::ControlFlow;
 
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Port, RenderError, Renderer, Wait};
 use geometry::{
-    Culling, DrawStatistics, Drawn, LitColour, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Unlit,
+    Culling, DirectionalLight, DrawStatistics, Drawn, LitColour, LitVertices, Matrix, ObjectLight, ScreenTransform,
+    ScreenVertex, Sink, Transformed, Unlit,
 };
 
 use crate::link::FrameReport;
-use crate::scene::{MAX_VERTICES, Meshes, Model, Scene};
-use crate::style::Style;
-use crate::viewer::View;
+use crate::scene::found::BlockMemory;
+use crate::scene::meshes::{MAX_VERTICES, Meshes, Model};
+use crate::scene::stage::{Stage, Subject};
+use crate::style::{Pass, Style};
 
 /// Words that are gathered before they go to the FPGA: most frames whole.
 const BUFFER_WORDS: usize = 32 * 1024;
@@ -20,6 +22,7 @@ const BUFFER_WORDS: usize = 32 * 1024;
 pub struct FrameMemory {
     vertices: [ScreenVertex; MAX_VERTICES],
     lit: [LitColour; MAX_VERTICES],
+    block: BlockMemory,
     words: [u32; BUFFER_WORDS],
 }
 
@@ -27,7 +30,12 @@ impl FrameMemory {
     /// Empty memory, for a static.
     pub const fn new() -> Self {
         let vertex = ScreenVertex { x: 0, y: 0, depth: 0, outside: 0 };
-        Self { vertices: [vertex; MAX_VERTICES], lit: [LitColour::BLACK; MAX_VERTICES], words: [0; BUFFER_WORDS] }
+        Self {
+            vertices: [vertex; MAX_VERTICES],
+            lit: [LitColour::BLACK; MAX_VERTICES],
+            block: BlockMemory::new(),
+            words: [0; BUFFER_WORDS],
+        }
     }
 }
 
@@ -37,7 +45,7 @@ impl Default for FrameMemory {
     }
 }
 
-/// Draws a scene and waits until the FPGA has passed its swap.
+/// Draws a stage and waits until the FPGA has passed its swap.
 ///
 /// `ticks` is a clock that counts up; the durations in the report are its differences, without
 /// the time that pushing words to the FPGA takes.
@@ -45,8 +53,8 @@ impl Default for FrameMemory {
 /// # Errors
 /// [`RenderError`] of the renderer; the frame is lost, and the renderer wants a reset.
 pub fn draw_frame<P: Port, W: Wait>(
-    (meshes, scene): (&Meshes<'_>, Scene),
-    view: &View,
+    meshes: &Meshes<'_>,
+    stage: &Stage,
     memory: &mut FrameMemory,
     renderer: &mut Renderer<P, W>,
     mut ticks: impl FnMut() -> u64,
@@ -54,21 +62,40 @@ pub fn draw_frame<P: Port, W: Wait>(
     let words_before = renderer.words_pushed();
     renderer.clear(Rgb332::BLACK, DEPTH_FAR)?;
 
-    let model = meshes.of(scene);
-    let mesh = &model.mesh;
-    let start = ticks();
-    let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let Ok(transformed) = Transformed::new(mesh, &transform, &mut memory.vertices) else {
-        // The cache is as large as the largest scene's mesh.
-        return Ok(FrameReport::default());
-    };
-    let vertices_done = ticks();
-    let light = ObjectLight::new(&view.light, &view.model);
-    let mut writer = PacketWriter::new(&mut memory.words, renderer, &mut ticks);
-    let statistics =
-        draw_styled(&transformed, model, (view.style, scene.culling()), &light, &mut memory.lit, &mut writer);
-    let faces_done = (writer.ticks)();
-    let pushing = writer.pushing;
+    let FrameMemory { vertices, lit, block, words } = memory;
+    let writer = PacketWriter::new(words, renderer, &mut ticks);
+    let mut painter = Painter { vertices, lit, writer, cost: Cost::default() };
+    let world_to_clip = stage.camera.projection.times(&stage.camera.view);
+    for (index, pass) in stage.style.passes().iter().enumerate() {
+        for object in &stage.objects {
+            let place = |model: Matrix, culling, extent| Place {
+                model_to_clip: world_to_clip.times(&model),
+                model,
+                light: &stage.light,
+                culling,
+                extent,
+                is_first_pass: index == 0,
+            };
+            let found = match object.subject {
+                Subject::Shape(shape) => {
+                    painter.draw(meshes.of(shape), *pass, &place(object.model, object.culling, None));
+                    continue;
+                }
+                Subject::Found => meshes.found(),
+            };
+            let Some((found, pass)) = found.and_then(|found| found.pass(*pass).map(|pass| (found, pass))) else {
+                continue;
+            };
+            let culling = if found.is_two_sided() { Culling::None } else { object.culling };
+            let place = place(object.model.times(found.fit()), culling, Some(found.extent()));
+            for part in found.blocks() {
+                if let Some(model) = painter.timed(|| block.decode(found.header(), &part)) {
+                    painter.draw(&model, pass, &place);
+                }
+            }
+        }
+    }
+    let Painter { writer, cost, .. } = painter;
     writer.finish()?;
 
     renderer.swap()?;
@@ -76,41 +103,117 @@ pub fn draw_frame<P: Port, W: Wait>(
     renderer.wait_fence(fence)?;
     Ok(FrameReport {
         index: 0,
-        vertices: statistics.vertices,
-        triangles_submitted: statistics.submitted,
-        triangles_clipped: statistics.clipped,
-        triangles_drawn: statistics.drawn,
+        vertices: cost.statistics.vertices,
+        triangles_submitted: cost.statistics.submitted,
+        triangles_clipped: cost.statistics.clipped,
+        triangles_drawn: cost.statistics.drawn,
         // The triangles, a clear, a swap and a fence.
-        packets: statistics.drawn + 3,
+        packets: cost.statistics.drawn + 3,
         words: (renderer.words_pushed() - words_before) as u32,
-        vertex_ticks: (vertices_done - start) as u32,
-        face_ticks: (faces_done - vertices_done - pushing) as u32,
+        vertex_ticks: cost.vertex_ticks as u32,
+        face_ticks: cost.face_ticks as u32,
+        score: None,
         checksum: None,
     })
 }
 
-/// Draws a model in a style.
+/// A mesh's place in a frame.
+struct Place<'a> {
+    model_to_clip: Matrix,
+    model: Matrix,
+    light: &'a DirectionalLight,
+    culling: Culling,
+    /// Of the whole mesh that this one is a part of.
+    extent: Option<[u32; 3]>,
+    is_first_pass: bool,
+}
+
+/// Draws meshes, and keeps what they cost.
+struct Painter<'a, P, W, T> {
+    vertices: &'a mut [ScreenVertex],
+    lit: &'a mut [LitColour],
+    writer: PacketWriter<'a, P, W, T>,
+    cost: Cost,
+}
+
+impl<P: Port, W: Wait, T: FnMut() -> u64> Painter<'_, P, W, T> {
+    /// Does work that is the vertices'.
+    fn timed<R>(&mut self, work: impl FnOnce() -> R) -> R {
+        let start = (self.writer.ticks)();
+        let result = work();
+        self.cost.vertex_ticks += (self.writer.ticks)() - start;
+        result
+    }
+
+    /// Draws a mesh's part of a pass.
+    fn draw(&mut self, model: &Model<'_>, pass: Pass, place: &Place<'_>) {
+        let Self { vertices, lit, writer, cost } = self;
+        let start = (writer.ticks)();
+        let extent = place.extent.unwrap_or_else(|| model.mesh.extent());
+        let transform = ScreenTransform::of_extent(&place.model_to_clip, extent);
+        // The caches are as large as the largest mesh.
+        let Ok(transformed) = Transformed::new(&model.mesh, &transform, vertices) else { return };
+        let transformed_at = (writer.ticks)();
+        let light = ObjectLight::new(place.light, &place.model);
+        // Lighting a vertex is a vertex's cost; what turns the light is a mesh's, and so the faces'.
+        let light_at = (writer.ticks)();
+        let lit = match pass {
+            // The memory is as large as the largest mesh, so there is never too little.
+            Pass::Smooth => transformed.light_vertices(model.looks, &light, lit).ok(),
+            _ => None,
+        };
+        let vertices_done = (writer.ticks)();
+        let pushed_before = writer.pushing;
+        let statistics = draw_pass(&transformed, model, (pass, place.culling), &light, lit, writer);
+        let pushing = writer.pushing - pushed_before;
+        cost.vertex_ticks += transformed_at - start + (vertices_done - light_at);
+        cost.face_ticks += (light_at - transformed_at) + (writer.ticks)() - vertices_done - pushing;
+        // What a later pass draws again counts as drawn, not as more to draw.
+        cost.add(&statistics, place.is_first_pass);
+    }
+}
+
+/// What a frame's objects took, all together.
+#[derive(Debug, Default)]
+struct Cost {
+    statistics: DrawStatistics,
+    vertex_ticks: u64,
+    face_ticks: u64,
+}
+
+impl Cost {
+    fn add(&mut self, more: &DrawStatistics, first_pass: bool) {
+        let sum = &mut self.statistics;
+        sum.drawn += more.drawn;
+        if first_pass {
+            sum.vertices += more.vertices;
+            sum.submitted += more.submitted;
+            sum.clipped += more.clipped;
+        }
+    }
+}
+
+/// Draws an object's part of a pass.
 ///
-/// The flat style is what most frames are, and what costs are measured on: it comes first.
-fn draw_styled(
+/// The flat one is what most frames are, and what costs are measured on: it comes first.
+fn draw_pass(
     transformed: &Transformed<'_>,
     model: &Model<'_>,
-    (style, culling): (Style, Culling),
+    (pass, culling): (Pass, Culling),
     light: &ObjectLight,
-    lit: &mut [LitColour],
+    lit: Option<LitVertices<'_>>,
     sink: &mut impl Sink,
 ) -> DrawStatistics {
-    match style {
-        Style::Flat => transformed.draw(light, culling, sink),
-        // The memory is as large as the largest scene's mesh, so there is never too little.
-        Style::Smooth => transformed.draw_smooth(model.looks, light, lit, culling, sink).unwrap_or_default(),
-        Style::Wire => transformed.draw_lines(model.edges, &Style::LINES, sink),
-        Style::HiddenLines => {
-            let hiding = transformed.draw_unlit(Unlit::HIDING, culling, sink);
-            let lines = transformed.draw_lines(model.edges, &Style::LINES, sink);
-            DrawStatistics { drawn: hiding.drawn + lines.drawn, ..hiding }
-        }
-        Style::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, culling, sink),
+    if model.mesh.faces().is_empty() {
+        // A model of lines alone has nothing else to show.
+        return transformed.draw_lines(model.edges, &Style::LINES, sink);
+    }
+    match pass {
+        Pass::Flat => transformed.draw(light, culling, sink),
+        Pass::Smooth => lit.map_or_else(DrawStatistics::default, |lit| transformed.draw_smooth(&lit, culling, sink)),
+        Pass::Hiding => transformed.draw_unlit(Unlit::HIDING, culling, sink),
+        Pass::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, culling, sink),
+        Pass::Lines => transformed.draw_lines(model.edges, &Style::LINES, sink),
     }
 }
 

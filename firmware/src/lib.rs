@@ -3,10 +3,14 @@
 //! | module | what it holds |
 //! | --- | --- |
 //! | [`app`] | the application: controllers in, frames out |
-//! | [`viewer`] | from what the controllers say to matrices |
-//! | [`scene`] | what there is to look at |
-//! | [`frame`] | one frame: a mesh to packets, and these to the FPGA |
+//! | [`viewer`] | which scene is shown, and how |
+//! | [`act`] | what each scene does: from what the controllers say to a stage |
+//! | [`scene`] | what there is to look at: meshes, and a stage of them with camera and light |
+//! | [`style`] | how scenes are drawn |
+//! | [`frame`] | one frame: a stage to packets, and these to the FPGA |
 //! | [`intake`] | what controllers say, taken in and tallied |
+//! | [`legend`] | what each key does, as the console tells it |
+//! | [`left_in_memory`] | what somebody left in memory before the start |
 //! | [`link`] | messages between a board and a PC |
 //! | [`board`] | what the application asks of a board |
 //! | [`armv7a`] | what every board shares: start-up, MMU, L1 caches, fault reports |
@@ -32,6 +36,7 @@
 ))]
 compile_error!("of the features `vexpress-a9`, `raspi2b` and `de1-soc` each names a board: choose one");
 
+pub mod act;
 pub mod app;
 pub mod armv7a;
 pub mod board;
@@ -41,6 +46,8 @@ pub mod cortex_a9;
 pub mod de1_soc;
 pub mod frame;
 pub mod intake;
+pub mod left_in_memory;
+pub mod legend;
 pub mod link;
 pub mod mmio;
 pub mod pl011;

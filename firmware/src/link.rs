@@ -35,6 +35,14 @@ pub enum HostMessage {
     Fault(Fault),
     /// Answer with [`BoardMessage::Status`].
     Ask,
+    /// Show another scene from its beginning, or in another style, and go on; numbers that there are not change
+    /// nothing and are told on the console. A scene begins in its own style.
+    Show {
+        /// Index into [`Scene::ALL`](crate::scene::Scene::ALL).
+        scene: Option<u8>,
+        /// Index into [`Style::ALL`](crate::style::Style::ALL).
+        style: Option<u8>,
+    },
 }
 
 /// A fault on purpose.
@@ -111,6 +119,8 @@ pub struct FrameReport {
     pub vertex_ticks: u32,
     /// Time for clipping, culling, lighting, set-up and packet words, in ticks.
     pub face_ticks: u32,
+    /// Points, where the scene is a game.
+    pub score: Option<u32>,
     /// CRC-32 of the picture that shows, RGB332, row 0 first; `None` where the processor cannot
     /// see the framebuffer.
     pub checksum: Option<u32>,

@@ -1,10 +1,10 @@
-//! How a mesh is drawn, whatever the scene.
+//! How scenes are drawn.
 
 use fpga_regs::packet::PixelMode;
 use fpga_regs::screen::Rgb332;
 use geometry::LineStyle;
 
-/// A way to draw a mesh.
+/// A way to draw meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Style {
     /// A colour a face, lit by its normal.
@@ -18,6 +18,59 @@ pub enum Style {
     HiddenLines,
     /// Depth as grey, the farther the darker.
     DepthGrey,
+}
+
+/// How space becomes flat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Projection {
+    /// The farther, the smaller.
+    #[default]
+    Perspective,
+    /// Parallel.
+    Orthographic,
+}
+
+impl Projection {
+    /// Returns the projection's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Perspective => "perspective",
+            Self::Orthographic => "orthographic",
+        }
+    }
+
+    /// Returns the other projection.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Perspective => Self::Orthographic,
+            Self::Orthographic => Self::Perspective,
+        }
+    }
+}
+
+/// How a scene is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Manner {
+    /// Faces or lines, and in which colours.
+    pub style: Style,
+    /// How space becomes flat.
+    pub projection: Projection,
+}
+
+/// A step of drawing a frame: every object goes through it before the next one begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pass {
+    /// Faces, a colour each.
+    Flat,
+    /// Faces, a colour a corner.
+    Smooth,
+    /// Faces' depth alone, to hide lines.
+    Hiding,
+    /// Faces, depth as grey.
+    DepthGrey,
+    /// Edges.
+    Lines,
 }
 
 impl Style {
@@ -38,9 +91,29 @@ impl Style {
         }
     }
 
+    /// Returns the style of a number, if there is one.
+    pub fn from_index(index: usize) -> Option<Self> {
+        Self::ALL.get(index).copied()
+    }
+
+    /// Returns the style's number.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Returns the steps that it takes.
+    pub fn passes(self) -> &'static [Pass] {
+        match self {
+            Style::Flat => &[Pass::Flat],
+            Style::Smooth => &[Pass::Smooth],
+            Style::Wire => &[Pass::Lines],
+            Style::HiddenLines => &[Pass::Hiding, Pass::Lines],
+            Style::DepthGrey => &[Pass::DepthGrey],
+        }
+    }
+
     /// Returns the next style, the first after the last.
     pub fn next(self) -> Self {
-        let index = Self::ALL.iter().position(|style| *style == self).unwrap_or(0);
-        Self::ALL[(index + 1) % Self::ALL.len()]
+        Self::from_index(self.index() + 1).unwrap_or_default()
     }
 }

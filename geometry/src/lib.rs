@@ -49,7 +49,7 @@ pub use line::LineStyle;
 pub use look::{LitColour, VertexLook};
 pub use matrix::{Matrix, Vector};
 pub use mesh::{Face, Mesh, MeshError, Winding};
-pub use pipeline::{CacheTooSmall, Culling, DrawStatistics, Drawn, Sink, Transformed, draw};
+pub use pipeline::{CacheTooSmall, Culling, DrawStatistics, Drawn, LitVertices, Sink, Transformed, draw};
 pub use setup::ScreenVertex;
 pub use shade::Unlit;
 pub use transform::ScreenTransform;

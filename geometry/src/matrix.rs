@@ -3,7 +3,7 @@
 //! Elements are Q32.32 ([`I32F32`]): enough range for any scene and enough fraction that a
 //! product of several matrices is still exact where the vertex path can see it. A product of
 //! matrices is worked out a few times a frame, so it can afford 128-bit sums; a vertex cannot,
-//! and gets a [`ScreenTransform`](crate::ScreenTransform).
+//! and gets a [`ScreenTransform`](crate::ScreenTransform). What does the 128-bit sums is not inlined: it is large.
 
 use fixed::types::I32F32;
 
@@ -83,15 +83,10 @@ impl Matrix {
     pub fn perspective(field_of_view: Angle, aspect: I32F32, near: I32F32, far: I32F32) -> Self {
         let (sine, cosine) = Angle::from_bits(field_of_view.to_bits() / 2).sin_cos();
         let cotangent = divide(cosine.into(), sine.into());
-        let depth = near.saturating_sub(far);
         let mut rows = [[ZERO; 4]; 4];
         rows[0][0] = divide(cotangent, aspect);
         rows[1][1] = cotangent;
-        rows[2][2] = divide(far.saturating_add(near), depth);
-        // 2·far·near/(near − far), with one rounding.
-        let product = i128::from(far.to_bits()) * i128::from(near.to_bits());
-        rows[2][3] = saturate(round_quotient(product.saturating_mul(2), i128::from(depth.to_bits())));
-        rows[3][2] = -ONE;
+        [rows[2], rows[3]] = depth_rows(near, far);
         Self { rows }
     }
 
@@ -108,6 +103,21 @@ impl Matrix {
             matrix.rows[axis][3] = divide(high.saturating_add(low).saturating_neg(), size);
         }
         matrix
+    }
+
+    /// Returns OpenGL's frustum: a perspective through a window in the near plane. `x` and `y` are the
+    /// window's (low, high) ends there, `depth` the (near, far) planes' distances, 0 < near < far.
+    ///
+    /// An empty window gives a useless matrix, not a panic.
+    pub fn frustum(x: (I32F32, I32F32), y: (I32F32, I32F32), (near, far): (I32F32, I32F32)) -> Self {
+        let mut rows = [[ZERO; 4]; 4];
+        for (row, (low, high)) in [x, y].into_iter().enumerate() {
+            let size = high.saturating_sub(low);
+            rows[row][row] = divide(near.saturating_mul_int(2), size);
+            rows[row][2] = divide(high.saturating_add(low), size);
+        }
+        [rows[2], rows[3]] = depth_rows(near, far);
+        Self { rows }
     }
 
     /// Returns the view from `eye` towards `target`, with `up` upwards on screen.
@@ -141,12 +151,24 @@ impl Matrix {
     }
 }
 
+/// The rows z and w of a projection in which what is farther is smaller.
+#[inline(never)]
+fn depth_rows(near: I32F32, far: I32F32) -> [[I32F32; 4]; 2] {
+    let depth = near.saturating_sub(far);
+    // 2·far·near/(near − far), with one rounding.
+    let product = i128::from(far.to_bits()) * i128::from(near.to_bits());
+    let offset = saturate(round_quotient(product.saturating_mul(2), i128::from(depth.to_bits())));
+    [[ZERO, ZERO, divide(far.saturating_add(near), depth), offset], [ZERO, ZERO, -ONE, ZERO]]
+}
+
 /// Returns the scalar product: summed in 128 bits, rounded once, half up, saturated.
+#[inline(never)]
 pub fn dot(a: Vector, b: Vector) -> I32F32 {
     sum_of_products(a.into_iter().zip(b))
 }
 
 /// Returns the vector product; each part is rounded once, half up, and saturates.
+#[inline(never)]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| sum_of_products([(a[i], b[j]), (a[j].saturating_neg(), b[i])].into_iter()))
 }
@@ -157,6 +179,7 @@ pub fn subtract(a: Vector, b: Vector) -> Vector {
 }
 
 /// Returns the vector of length 1 in the same direction, each part within 2⁻²⁹, or `None` for zero.
+#[inline(never)]
 pub fn normalise(vector: Vector) -> Option<Vector> {
     let parts = vector.map(I32F32::to_bits);
     let largest = parts.iter().map(|part| part.unsigned_abs()).max()?;
@@ -171,16 +194,24 @@ pub fn normalise(vector: Vector) -> Option<Vector> {
 }
 
 fn sum_of_products(pairs: impl Iterator<Item = (I32F32, I32F32)>) -> I32F32 {
-    let sum: i128 = pairs.map(|(a, b)| (i128::from(a.to_bits()) * i128::from(b.to_bits())) >> 2).sum();
+    let sum = pairs.fold(0, |sum, (a, b)| add_product(sum, a, b));
     saturate((sum + (1 << 29)) >> 30)
 }
 
+/// Adds a product to a sum, both Q62.
+#[inline(never)]
+fn add_product(sum: i128, a: I32F32, b: I32F32) -> i128 {
+    sum + ((i128::from(a.to_bits()) * i128::from(b.to_bits())) >> 2)
+}
+
 /// `numerator/denominator`, rounded half up and saturated; a zero denominator saturates too.
+#[inline(never)]
 fn divide(numerator: I32F32, denominator: I32F32) -> I32F32 {
     saturate(round_quotient(i128::from(numerator.to_bits()) << 32, i128::from(denominator.to_bits())))
 }
 
 /// The quotient, rounded half up; a zero denominator gives the largest number of the right sign.
+#[inline(never)]
 fn round_quotient(numerator: i128, denominator: i128) -> i128 {
     let (numerator, denominator) = match denominator {
         0 => return numerator.signum() * i128::MAX,

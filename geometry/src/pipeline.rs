@@ -76,6 +76,10 @@ pub struct DrawStatistics {
     pub drawn: u32,
 }
 
+/// A mesh's vertices, lit.
+#[derive(Debug, Clone, Copy)]
+pub struct LitVertices<'a>(Smooth<'a>);
+
 /// The caller's vertex cache is smaller than the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -144,27 +148,30 @@ impl<'a> Transformed<'a> {
         }
     }
 
-    /// As [`draw`](Self::draw), but lit at each vertex, with colours that change over the face.
+    /// Lights every vertex, for [`draw_smooth`](Self::draw_smooth).
     ///
     /// `looks` has one for each of the mesh's vertices; `lit` is room for as many.
     ///
     /// # Errors
-    /// [`CacheTooSmall`] when either is shorter than the mesh has vertices; nothing is drawn then.
-    pub fn draw_smooth(
+    /// [`CacheTooSmall`] when either is shorter than the mesh has vertices.
+    pub fn light_vertices<'l>(
         &self,
-        looks: &[VertexLook],
-        light: &ObjectLight,
-        lit: &mut [LitColour],
-        culling: Culling,
-        sink: &mut impl Sink,
-    ) -> Result<DrawStatistics, CacheTooSmall> {
+        looks: &'l [VertexLook],
+        light: &'l ObjectLight,
+        lit: &'l mut [LitColour],
+    ) -> Result<LitVertices<'l>, CacheTooSmall> {
         let needed = self.cache.len();
         let given = looks.len().min(lit.len());
         let (Some(looks), Some(lit)) = (looks.get(..needed), lit.get_mut(..needed)) else {
             return Err(CacheTooSmall { needed, given });
         };
         light_vertices(looks, light, lit);
-        Ok(self.draw_as(Smooth { light, looks, lit }, culling, sink))
+        Ok(LitVertices(Smooth { light, looks, lit }))
+    }
+
+    /// As [`draw`](Self::draw), but by the mesh's own vertices' light, with colours that change over the face.
+    pub fn draw_smooth(&self, lit: &LitVertices<'_>, culling: Culling, sink: &mut impl Sink) -> DrawStatistics {
+        self.draw_as(lit.0, culling, sink)
     }
 
     /// As [`draw`](Self::draw), but unlit and in one mode: depth alone, or depth as grey.

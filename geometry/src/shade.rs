@@ -163,7 +163,7 @@ fn flat_header(colour: Rgb332) -> u32 {
 }
 
 /// A colour a corner, lit there.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Smooth<'a> {
     pub(crate) light: &'a ObjectLight,
     pub(crate) looks: &'a [VertexLook],

@@ -1,10 +1,16 @@
 //! Meshes that the project makes itself, into buffers that the caller lends.
 
+mod icosphere;
+mod solid;
+
 use fixed::types::{I4F28, I32F32};
 
 use crate::angle::Angle;
 use crate::matrix::{Vector, cross, normalise, subtract};
 use crate::mesh::{Face, Position};
+
+pub use icosphere::icosphere;
+pub use solid::{Corners, MAX_FACET_CORNERS, Solid, SolidBuilder};
 
 /// Returns the unit normal of a counter-clockwise face, Q2.14; zero for a degenerate one.
 pub fn face_normal(corners: [&Position; 3]) -> [i16; 3] {

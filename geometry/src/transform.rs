@@ -104,8 +104,14 @@ impl ScreenTransform {
     /// The error of a row is below 5 · 2⁻²⁹ of the greatest coordinate that any vertex of the mesh
     /// can have; a matrix of zeros puts every vertex behind the eye.
     pub fn new(model_to_clip: &Matrix, mesh: &Mesh<'_>) -> Self {
+        Self::of_extent(model_to_clip, mesh.extent())
+    }
+
+    /// As [`new`](Self::new), for all positions of which no coordinate's magnitude exceeds `extent`, in units of
+    /// 2⁻²⁸: parts of one mesh that share vertices must share their transform, or there are cracks between them.
+    pub fn of_extent(model_to_clip: &Matrix, extent: [u32; 3]) -> Self {
         let rows = viewport_rows(model_to_clip);
-        let extent = mesh.extent().map(i128::from);
+        let extent = extent.map(i128::from);
         // Greatest magnitude of each row's sum over the mesh, and of its factors.
         let sum_bound = |row: &[i128; 4]| {
             let products: i128 = (0..3).map(|axis| row[axis].abs() * extent[axis]).sum();

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use firmware::scene::{MAX_VERTICES, MeshMemory, Meshes, Scene, TORUS_RADIUS, TORUS_TUBE};
+use firmware::scene::meshes::{MAX_VERTICES, MeshMemory, Meshes, Shape, TORUS_RADIUS, TORUS_TUBE};
 use fixed::types::I4F28;
 use geometry::mesh::Position;
 use geometry::shapes::torus;
@@ -11,9 +11,9 @@ use geometry::{Face, Mesh, MeshError, Winding};
 use host_tests::float_matrix::{Vector, cross, dot, unit};
 use host_tests::twin::exact_position;
 
-fn with_mesh<R>(scene: Scene, look: impl FnOnce(&Mesh<'_>) -> R) -> R {
+fn with_mesh<R>(shape: Shape, look: impl FnOnce(&Mesh<'_>) -> R) -> R {
     let mut memory = Box::<MeshMemory>::default();
-    look(&Meshes::new(&mut memory).expect("the built-in meshes are well-formed").of(scene).mesh)
+    look(&Meshes::new(&mut memory).expect("the built-in meshes are well-formed").of(shape).mesh)
 }
 
 /// Every edge has a face on each side, which take it in opposite directions.
@@ -69,7 +69,7 @@ fn volume(mesh: &Mesh<'_>) -> f64 {
 
 #[test]
 fn the_torus_is_closed_large_and_turned_outwards() {
-    with_mesh(Scene::Torus, |mesh| {
+    with_mesh(Shape::Torus, |mesh| {
         assert!(mesh.faces().len() >= 4_000 && mesh.positions().len() <= MAX_VERTICES, "{}", mesh.faces().len());
         assert_closed(mesh);
         assert_normals_fit(mesh);
@@ -94,7 +94,7 @@ fn the_torus_is_closed_large_and_turned_outwards() {
 
 #[test]
 fn the_plate_has_120_faces_is_closed_and_turned_outwards() {
-    with_mesh(Scene::Plate, |mesh| {
+    with_mesh(Shape::Plate, |mesh| {
         assert_eq!((mesh.faces().len(), mesh.positions().len()), (120, 62));
         assert_closed(mesh);
         assert_normals_fit(mesh);
@@ -108,13 +108,54 @@ fn the_plate_has_120_faces_is_closed_and_turned_outwards() {
     });
 }
 
+/// Faces, and the edges that lines show: as many as the shapes' own figures say.
+#[test]
+fn every_shape_is_whole() {
+    let mut memory = Box::<MeshMemory>::default();
+    let meshes = Meshes::new(&mut memory).expect("the built-in meshes are well-formed");
+    for (shape, faces, edges) in [
+        (Shape::Plate, 120, 180),
+        (Shape::Torus, 4_096, 6_144),
+        (Shape::Ring, 480, 720),
+        (Shape::Sphere, 320, 480),
+        (Shape::Box, 12, 12),
+        (Shape::Pyramid, 6, 8),
+        (Shape::Dodecahedron, 36, 30),
+        (Shape::Prism, 20, 18),
+        (Shape::Disc, 44, 36),
+        (Shape::House, 26, 43),
+    ] {
+        let model = meshes.of(shape);
+        assert_eq!((model.mesh.faces().len(), model.edges.len()), (faces, edges), "{shape:?}");
+        assert_eq!(model.looks.len(), model.mesh.positions().len(), "{shape:?}");
+    }
+}
+
+#[test]
+fn solids_are_closed_and_turned_outwards() {
+    for shape in [Shape::Ring, Shape::Sphere, Shape::Dodecahedron, Shape::Prism, Shape::Disc] {
+        with_mesh(shape, |mesh| {
+            assert_closed(mesh);
+            assert_normals_fit(mesh);
+            assert!(volume(mesh) > 0.0, "{shape:?}");
+        });
+    }
+    // Facets that have corners of their own are not closed by their numbers; but by their volume.
+    for (shape, expected) in [(Shape::Box, 8.0), (Shape::Pyramid, 8.0 / 3.0)] {
+        with_mesh(shape, |mesh| {
+            assert_normals_fit(mesh);
+            assert!((volume(mesh) - expected).abs() < 1e-6, "{shape:?}");
+        });
+    }
+}
+
 #[test]
 fn every_corner_of_a_mesh_is_used() {
-    for scene in [Scene::Plate, Scene::Torus] {
-        with_mesh(scene, |mesh| {
+    for shape in Shape::ALL.into_iter().filter(|shape| *shape != Shape::House) {
+        with_mesh(shape, |mesh| {
             let mut used = vec![false; mesh.positions().len()];
             mesh.faces().iter().flat_map(|face| face.corners).for_each(|corner| used[corner as usize] = true);
-            assert!(used.iter().all(|used| *used), "{scene:?}");
+            assert!(used.iter().all(|used| *used), "{shape:?}");
         });
     }
 }

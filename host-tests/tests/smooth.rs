@@ -92,15 +92,17 @@ fn smooth_unlit_and_flat_triangles_have_the_same_shapes() {
         let light = ObjectLight::FULL;
         let statistics = transformed.draw(&light, culling, &mut flat);
         let mut lit = [LitColour::default(); 24];
-        let smooth_statistics =
-            transformed.draw_smooth(&soup.looks, &light, &mut lit, culling, &mut smooth).expect("large enough");
+        let smooth_statistics = {
+            let colours = transformed.light_vertices(&soup.looks, &light, &mut lit).expect("large enough");
+            transformed.draw_smooth(&colours, culling, &mut smooth)
+        };
         assert_eq!(statistics, smooth_statistics);
         assert_eq!(statistics, transformed.draw_unlit(Unlit::DEPTH_GREY, culling, &mut grey));
         assert_eq!(flat.shapes(), smooth.shapes());
         assert_eq!(flat.shapes(), grey.shapes());
         triangles += statistics.drawn;
         clipped += statistics.clipped;
-        let short = transformed.draw_smooth(&soup.looks, &light, &mut lit[1..], culling, &mut smooth);
+        let short = transformed.light_vertices(&soup.looks, &light, &mut lit[1..]);
         assert_eq!(
             short.expect_err("too short").to_string(),
             "the mesh has 24 vertices, the vertex cache holds 23: lend a larger one"

@@ -1,5 +1,5 @@
-//! The demonstration's frames, as the firmware draws them, through the device and the model: clears,
-//! triangles, swaps and fences as they come, and after every frame all equal.
+//! The demonstration's frames and those of the five systems, as the firmware draws them, through the device and the
+//! model: clears, triangles, lines, swaps and fences as they come, and after every frame all equal.
 
 mod common;
 
@@ -16,18 +16,29 @@ static WORDS: LazyLock<Vec<u32>> = LazyLock::new(|| {
     demo::words(&parts, &Progress::quiet()).expect("it plays")
 });
 
-fn scenes(units: u32) {
+/// The same of the session of the five systems: flat and Gouraud triangles, lines, depth alone, depth as grey.
+static SEEDS: LazyLock<Vec<u32>> = LazyLock::new(|| {
+    let parts = session::seeds().expect("the session is committed");
+    demo::words(&parts, &Progress::quiet()).expect("it plays")
+});
+
+fn scenes(units: u32, session: &str, words: &[u32]) -> (usize, u32) {
     let mut pair = Pair::new(units);
     let mut triangles = 0;
     let mut count = 0;
-    for frame in frames(&WORDS) {
+    for frame in frames(words) {
         pair.push(frame.words);
-        pair.compare_registers(&format!("after frame {count} of the demonstration"));
-        pair.compare_memories(&format!("after frame {count} of the demonstration"));
+        pair.compare_registers(&format!("after frame {count} of {session}"));
+        pair.compare_memories(&format!("after frame {count} of {session}"));
         triangles = pair.model.counters().triangles;
         count += 1;
     }
     println!("{units} pixel units: {count} frames, {triangles} triangles, {} clocks", pair.rtl.clocks());
+    (count, triangles)
+}
+
+fn demonstration(units: u32) {
+    let (count, triangles) = scenes(units, "the demonstration", &WORDS);
     let expected = session::demo().expect("it was read").iter().map(|part| part.frames.len()).sum::<usize>();
     assert_eq!(count, expected, "every frame of the session ends with a swap");
     assert!(triangles > 100_000, "{triangles} triangles are not the demonstration");
@@ -35,20 +46,37 @@ fn scenes(units: u32) {
 
 #[test]
 fn one_unit_shows_the_demonstration() {
-    scenes(1);
+    demonstration(1);
 }
 
 #[test]
 fn two_units_show_the_demonstration() {
-    scenes(2);
+    demonstration(2);
 }
 
 #[test]
 fn four_units_show_the_demonstration() {
-    scenes(4);
+    demonstration(4);
 }
 
 #[test]
 fn eight_units_show_the_demonstration() {
-    scenes(8);
+    demonstration(8);
+}
+
+fn seeds(units: u32) {
+    let (count, triangles) = scenes(units, "the five systems", &SEEDS);
+    let expected = session::seeds().expect("it was read").iter().map(|part| part.frames.len()).sum::<usize>();
+    assert_eq!(count, expected, "every frame of the session ends with a swap");
+    assert!(triangles > 40_000, "{triangles} triangles are not the five systems'");
+}
+
+#[test]
+fn one_unit_shows_the_five_systems() {
+    seeds(1);
+}
+
+#[test]
+fn eight_units_show_the_five_systems() {
+    seeds(8);
 }

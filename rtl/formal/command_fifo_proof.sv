@@ -1,7 +1,8 @@
 // Proves `command_fifo`: the n-th word that comes out is the n-th that went in, for every n.
 //
 // Words are counted modulo 2^32 on both sides. `number_q` is any number; `word_q` remembers the word
-// of that number. So nothing is lost, doubled, put out of order or made up, at any level.
+// of that number. So nothing is doubled, put out of order or made up, at any level; and nothing is
+// lost or kept back, because the oldest word shows as soon as it has been in for a clock.
 `default_nettype none
 
 module command_fifo_proof #(
@@ -39,6 +40,7 @@ module command_fifo_proof #(
   logic [31:0] number_q;  // never set, never changed: any value
   logic [31:0] word_q;
   logic [31:0] in_q, out_q;  // words that have gone in and come out
+  logic [31:0] in_before_q;  // words that had gone in a clock ago
   logic started_q;
 
   always_ff @(posedge clk_i) begin
@@ -54,12 +56,15 @@ module command_fifo_proof #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      in_q  <= '0;
-      out_q <= '0;
+      in_q        <= '0;
+      out_q       <= '0;
+      in_before_q <= '0;
     end else if (clear_i) begin
-      in_q  <= '0;
-      out_q <= '0;
+      in_q        <= '0;
+      out_q       <= '0;
+      in_before_q <= '0;
     end else begin
+      in_before_q <= in_q;
       in_q  <= in_q + 32'(valid_i && ready);
       out_q <= out_q + 32'(valid && ready_i);
     end
@@ -73,9 +78,10 @@ module command_fifo_proof #(
       assert (32'(level) == in_q - out_q);
       assert (32'(level) <= Depth);
       assert (ready == (32'(level) < Depth));
-      assert (!valid || level != '0);
+      assert (valid == (out_q != in_before_q));
       if (valid && ready_i && out_q == number_q) assert (word == word_q);
       // invariants
+      assert (in_q - in_before_q <= 32'd1 && in_before_q - out_q <= Depth);
       assert (u_fifo.write_q == LevelWidth'(in_q));
       assert (u_fifo.read_q == LevelWidth'(out_q));
       if (held) assert (u_fifo.u_words.mem[number_q[AddressWidth-1:0]] == word_q);

@@ -1,4 +1,4 @@
-// Proves that `traversal` visits every covered pixel's tile exactly once, whatever the stream.
+// Proves that `traversal` visits every covered pixel's tile exactly once and comes to an end, whatever the stream.
 //
 // Of any primitive, and any pixel of its box that all three edge functions cover: while the primitive
 // passes, its tiles are shown in rising order (so none twice), none of them outside the box, each with
@@ -305,12 +305,38 @@ module traversal_proof
     end
   end
 
-  // The walker always does something: it moves, or waits for the queue, which the scanner empties.
+  // It comes to an end: no stage stands still but for the one behind it, and each has only so much to do.
+  //
+  // Setup counts to its offer. The walker steps or offers in every clock; in a row it never turns, so a row
+  // takes no more clocks than the box has columns, and rows only fall. The scanner goes right in every clock
+  // and not beyond the box, then takes what the queue offers. All this holds for each primitive, so
+  // what is in front of the followed one ends as well.
+  logic [1:0] setup_age_q;
+  logic left_in_row_q, right_in_row_q;
+  always_ff @(posedge clk_i) begin
+    if (take) setup_age_q <= 2'd0;
+    else if (setup_age_q != 2'd2) setup_age_q <= setup_age_q + 1'b1;
+    if (u_dut.u_walker.step_down || u_dut.setup_valid && u_dut.setup_ready) {left_in_row_q, right_in_row_q} <= '0;
+    else {left_in_row_q, right_in_row_q} <= {left_in_row_q || u_dut.u_walker.step_left, right_in_row_q || u_dut.u_walker.step_right};
+  end
   always_comb begin
+    if (started_q && is_in.setup) begin
+      assert (u_dut.u_setup.state_q == SetupAdds - 2'd1 + setup_age_q && setup_age_q != 2'd3);
+      assert (u_dut.setup_valid == (setup_age_q == 2'd2));
+      // Nothing keeps it but the primitive in front: in the walker, or its first start in the queue.
+      if (u_dut.setup_valid) assert (u_dut.setup_ready || u_dut.u_walker.busy_q || u_dut.queue_valid);
+    end
     if (started_q && u_dut.u_walker.busy_q) begin
       assert ($onehot({u_dut.u_walker.step_left, u_dut.u_walker.step_right, u_dut.u_walker.step_down,
                        u_dut.walk_valid && !u_dut.walk_ready}));
     end
+    if (started_q && walking) begin
+      assert (!left_in_row_q || !u_dut.u_walker.left_out && !right_in_row_q);
+      assert (!right_in_row_q || u_dut.u_walker.neighbour_left_out);
+      assert (!(left_in_row_q && u_dut.u_walker.step_right) && !(right_in_row_q && u_dut.u_walker.step_left));
+      if (!u_dut.walk_ready) assert (u_dut.queue_valid);
+    end
+    if (started_q && u_dut.queue_valid) assert (pop == (!valid || u_dut.u_scanner.row_done));
   end
 
   // What the assumptions must leave possible.

@@ -17,10 +17,12 @@
 //! **What U-Boot leaves**: any line that nobody has touched since power-on may be dirty in both
 //! levels, until all of L1 and then all of L2 was cleaned.
 
-use std::sync::Mutex;
-use std::sync::MutexGuard;
-use std::sync::PoisonError;
+mod kinds;
+
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+pub use kinds::{Attribute, Counts, Operation};
 
 use crate::memory::{LINE_BYTES, Memory};
 
@@ -43,43 +45,6 @@ const STALE: u8 = L1_STALE | L2_STALE;
 /// Sets of the L1 data cache: 32 KiB in four ways.
 const L1_SETS: usize = 256;
 const L1_ALL_WAYS: u8 = 0xF;
-
-/// What an address's translation says, as far as caches go.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Attribute {
-    /// Device or strongly ordered memory, or any with the MMU off.
-    Device,
-    /// Normal memory that is not cached.
-    Uncached,
-    /// Normal memory that both levels may cache.
-    Cached,
-}
-
-/// An operation on a line by its address, or on lines by their place in the cache.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Operation {
-    /// Writes dirty lines back.
-    pub clean: bool,
-    /// Forgets lines.
-    pub invalidate: bool,
-}
-
-/// How often what was done.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Counts {
-    /// L1 operations by address.
-    pub l1_lines: u64,
-    /// L1 operations by set and way.
-    pub l1_sets: u64,
-    /// L2 operations by address.
-    pub l2_lines: u64,
-    /// L2 operations by way.
-    pub l2_ways: u64,
-    /// Lines that bus masters read.
-    pub dma_reads: u64,
-    /// Lines that bus masters wrote.
-    pub dma_writes: u64,
-}
 
 struct Lists {
     /// Lines that L1 may hold dirty, by set.
@@ -130,6 +95,12 @@ impl Caches {
         for flag in [&self.l2_on, &self.loader_in_l1, &self.loader_in_l2] {
             flag.store(true, Relaxed);
         }
+    }
+
+    /// Says that U-Boot has written its dirty lines back.
+    pub fn flush_loader(&self) {
+        self.loader_in_l1.store(false, Relaxed);
+        self.loader_in_l2.store(false, Relaxed);
     }
 
     fn lists(&self) -> MutexGuard<'_, Lists> {

@@ -27,6 +27,10 @@ pub struct Start {
     pub translation_table: u32,
     /// Base of the exception vectors.
     pub vectors: u32,
+    /// Whether MMU and caches are on.
+    pub cached: bool,
+    /// R0 and R1: how many words follow U-Boot's `go`, and where the list of their addresses is.
+    pub arguments: [u32; 2],
 }
 
 /// One Cortex-A9 core on a bus.
@@ -39,7 +43,7 @@ pub trait Cpu {
     where
         Self: Sized;
 
-    /// Starts it in secure supervisor mode, interrupts masked, MMU, caches and branch prediction on.
+    /// Starts it in secure supervisor mode, interrupts masked, branch prediction on.
     fn start(&mut self, start: &Start);
 
     /// Runs until the deadline, or until it sleeps.

@@ -20,8 +20,10 @@ pub mod uart;
 pub mod usb;
 
 mod hardware;
+mod reset_cause;
 
-pub use hardware::{Hardware, ResetCause};
+pub use hardware::Hardware;
+pub use reset_cause::ResetCause;
 
 /// What a register answers, or why it does not.
 pub type Answer<T> = Result<T, String>;

@@ -6,6 +6,7 @@ mod uboot;
 use std::sync::Arc;
 
 pub use power_on::PowerOn;
+use uboot::Go;
 
 use crate::bus::Bus;
 use crate::cache::Counts;
@@ -17,10 +18,10 @@ use crate::image::{Image, LOAD_ADDRESS};
 use crate::time::{Clocks, milliseconds};
 use crate::violation::Violation;
 
-/// A place in the on-chip RAM with a branch to itself.
-const TRAP: u32 = 0xFFFF_FF00;
-/// `b .`
-const BRANCH_TO_SELF: u32 = 0xEAFF_FFFE;
+/// A place behind the program, where code may lie, for a loop that does nothing.
+const TRAP: u32 = LOAD_ADDRESS + 0x00FF_FF00;
+/// `wfi`, `b .-4`
+const LOOP: [u32; 2] = [0xE320_F003, 0xEAFF_FFFD];
 /// Longest time that a screen takes to be scanned out.
 const SCAN_OUT: Clocks = milliseconds(50);
 
@@ -40,6 +41,7 @@ pub struct Machine {
     bus: Arc<Bus>,
     cpu: Interpreter,
     card: Image,
+    go: Go,
     console: Vec<u8>,
 }
 
@@ -121,13 +123,23 @@ impl Machine {
             self.bus.sdram().load(*address, bytes);
         }
         uboot::write_translation_table(self.bus.sdram());
-        self.cpu.start(&uboot::start(LOAD_ADDRESS));
+        if self.go.caches_off {
+            self.bus.caches.flush_loader();
+        }
+        self.cpu.start(&uboot::start(LOAD_ADDRESS, self.bus.sdram(), &self.go));
     }
 
-    /// Makes the program hang: the processor runs in a circle, and serves interrupts.
+    /// Makes the program hang: the processor sleeps in a circle, and serves interrupts.
     pub fn hang(&mut self) {
-        self.bus.ocram().set_word(TRAP, BRANCH_TO_SELF);
-        self.cpu.jump(TRAP);
+        for (place, word) in (TRAP..).step_by(4).zip(LOOP) {
+            self.bus.sdram().set_word(place, word);
+        }
+        self.jump(TRAP);
+    }
+
+    /// Makes the program go on at another address, as a stray pointer does.
+    pub fn jump(&mut self, address: u32) {
+        self.cpu.jump(address);
     }
 
     /// Returns what the console's line has carried since power-on.
@@ -187,11 +199,6 @@ impl Machine {
     /// Returns bytes of the SDRAM.
     pub fn memory(&self, address: u32, count: usize) -> Vec<u8> {
         self.bus.sdram().bytes(address, count)
-    }
-
-    /// Writes bytes to the SDRAM behind the processor's back, as U-Boot's `load` does before the start.
-    pub fn load_memory(&mut self, address: u32, bytes: &[u8]) {
-        self.bus.sdram().load(address, bytes);
     }
 
     /// Reads memory as a bus master does.

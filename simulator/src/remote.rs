@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use crate::machine::{Event, Machine};
-use crate::time::{in_milliseconds, milliseconds};
+use crate::time::{in_milliseconds, in_nanoseconds, milliseconds};
 use crate::violation::Violation;
 
 /// What the machine is told.
@@ -20,9 +20,23 @@ pub enum Order {
     Receive(u64),
     /// Run until what shows has been scanned out, and write the screen to a file: 640×480, red, green, blue.
     Screen(PathBuf),
-    /// Run for so many milliseconds of virtual time.
-    Run(u64),
+    /// Run until so many frames were shown since power-on, and say what was done by then.
+    Frames(u64),
 }
+
+/// What a board has done since power-on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Done {
+    /// Frames shown.
+    pub frames: u64,
+    /// Virtual time, in nanoseconds.
+    pub nanoseconds: u64,
+    /// Instructions since the last reset.
+    pub instructions: u64,
+}
+
+/// For how long a frame is waited for, in milliseconds of virtual time.
+const FRAME_LIMIT: u64 = 5_000;
 
 /// What it answers.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -32,6 +46,8 @@ pub enum Answer {
     Done,
     /// What the board has sent since it was asked last; nothing when the time was over.
     Received(Vec<u8>),
+    /// So much was done.
+    Ran(Done),
     /// The order cannot be obeyed, or the run has ended: why.
     Failed(String),
 }
@@ -67,7 +83,7 @@ impl Remote {
                 Ok(Answer::Done)
             }
             Order::Receive(limit) => self.receive(limit),
-            Order::Run(time) => self.run(time, |_| false).map(|()| Answer::Done),
+            Order::Frames(count) => self.frames(count),
             Order::Screen(path) => self.machine.screen().map(|screen| match screen {
                 Some(screen) => match std::fs::write(&path, screen.pixels().as_flattened()) {
                     Ok(()) => Answer::Done,
@@ -86,6 +102,21 @@ impl Remote {
         let bytes = self.machine.console()[handed..].to_vec();
         self.handed += bytes.len();
         Ok(Answer::Received(bytes))
+    }
+
+    fn frames(&mut self, count: u64) -> Result<Answer, Violation> {
+        while self.machine.frames_shown() < count {
+            let before = self.machine.frames_shown();
+            self.run(FRAME_LIMIT, |machine| machine.frames_shown() > before)?;
+            if self.machine.frames_shown() == before {
+                return Ok(Answer::Failed(format!("no frame was shown for {FRAME_LIMIT} ms, {before} were before")));
+            }
+        }
+        Ok(Answer::Ran(Done {
+            frames: self.machine.frames_shown(),
+            nanoseconds: in_nanoseconds(self.machine.now()),
+            instructions: self.machine.instructions(),
+        }))
     }
 
     /// Runs; a reset is written to the console's file, and does not end the run.

@@ -38,3 +38,8 @@ pub const fn milliseconds(count: u64) -> Clocks {
 pub fn in_milliseconds(clocks: Clocks) -> f64 {
     clocks as f64 * 1e3 / CPU_HERTZ as f64
 }
+
+/// Returns a duration in nanoseconds, rounded down.
+pub const fn in_nanoseconds(clocks: Clocks) -> u64 {
+    clocks * 1_000 / (CPU_HERTZ / 1_000_000)
+}

@@ -167,7 +167,7 @@ impl BringUp {
             }
             Stage::Head => Stage::Configuration { length: Configuration::total_length(&data).ok_or(link.nonsense())? },
             Stage::Configuration { .. } => {
-                self.configuration = Configuration::parse(&data).ok_or(link.nonsense())?;
+                self.configuration = Configuration::parse(&data, link.route.speed).ok_or(link.nonsense())?;
                 if self.identity.class == 0 {
                     self.identity.class = self.configuration.class;
                 }

@@ -1,10 +1,10 @@
 //! Time, and every wait with who asks for it.
 
-/// A moment, in 1/1024 s since some other; one that is 24 days away or more is taken for the past.
+/// A moment, in units of 1,024 µs since some other; one that is 25 days away or more is taken for the past.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Moment(u32);
 
-/// A while, in microseconds; a wait takes at least that, and less than 3 ms more.
+/// A while, in microseconds; a wait takes at least that, and at most 3 ms more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Wait(u32);
 
@@ -20,7 +20,7 @@ impl Moment {
         Self(self.0.wrapping_add((wait.0 >> MICROSECONDS_EXPONENT) + 2))
     }
 
-    /// Tells how far it is away, in 1/1024 s; `None` if it has come.
+    /// Tells how far it is away, in units of 1,024 µs; `None` if it has come.
     pub(crate) const fn away_from(self, now: Self) -> Option<u32> {
         let away = self.0.wrapping_sub(now.0);
         if away == 0 || away > u32::MAX / 2 { None } else { Some(away) }

@@ -1,8 +1,5 @@
 //! A device that goes wrong.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
 use crate::dualshock3::{Temper, dualshock3};
 use crate::dualshock4::dualshock4;
 use crate::gamepad::gamepad;
@@ -157,9 +154,9 @@ impl Function for Noise {
 
 /// Returns a device that is wrong in a way of its own for each seed: some have wrong descriptors, some wrong
 /// answers, some a habit, some all three.
-pub fn rogue(seed: u64) -> Rc<RefCell<dyn Device>> {
+pub fn rogue(seed: u64) -> Box<dyn Device + Send> {
     let mut random = Random(seed);
-    let device: Box<dyn Device> = match random.below(9) {
+    let device: Box<dyn Device + Send> = match random.below(9) {
         0 => vary(keyboard(Form::Boot, Speed::Low), &mut random),
         1 => vary(keyboard(Form::Boot, Speed::High), &mut random),
         2 => vary(keyboard(Form::Bitmap, Speed::Full), &mut random),
@@ -169,21 +166,26 @@ pub fn rogue(seed: u64) -> Rc<RefCell<dyn Device>> {
         6 => vary(gamepad(), &mut random),
         7 => vary(storage(Speed::High), &mut random),
         _ => {
-            let hub = Leaf::new(Speed::Full, simple_hub::descriptors(Speed::Full), Noise(random.clone()));
+            let speed = if random.once_in(2) { Speed::High } else { Speed::Full };
+            let hub = Leaf::new(speed, simple_hub::descriptors(speed), Noise(random.clone()));
             vary(hub, &mut random)
         }
     };
     if random.once_in(4) {
-        return Rc::new(RefCell::new(device));
+        return device;
     }
     let habit = Habit::ALL[random.below(Habit::ALL.len())];
     let from = random.below(60) as u64;
-    let once_in = [1, 1, 2, 5, 20][random.below(5)];
-    Rc::new(RefCell::new(Rogue::new(device, habit, from, once_in, random.bits())))
+    let once_in = match habit {
+        // "Not now" for ever takes every time-out there is, so only some do.
+        Habit::Naks if !random.once_in(8) => [2, 5, 20][random.below(3)],
+        _ => [1, 1, 2, 5, 20][random.below(5)],
+    };
+    Box::new(Rogue::new(device, habit, from, once_in, random.bits()))
 }
 
 /// Makes a device's descriptors wrong, its answers, both or none.
-fn vary<F: Function + 'static>(mut leaf: Leaf<F>, random: &mut Random) -> Box<dyn Device> {
+fn vary<F: Function + Send + 'static>(mut leaf: Leaf<F>, random: &mut Random) -> Box<dyn Device + Send> {
     if !random.once_in(4) {
         mutate(&mut leaf.descriptors, random);
     }

@@ -7,13 +7,12 @@ mod table;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 use serde::Deserialize;
 
 use crate::measure::Measurement;
-use crate::paths::{target_folder, workspace_root};
+use crate::yosys::{folder_with_design, run_yosys};
 
 pub use table::{committed, ensure_fresh, write};
 
@@ -58,22 +57,10 @@ struct Design {
 /// # Errors
 /// When Yosys fails (its log is named), or when memories became flip-flops or too many blocks.
 pub fn synthesize(yosys: &Path, units: u32) -> anyhow::Result<Area> {
-    let folder = target_folder().join("area");
-    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let folder = folder_with_design("area")?;
     let file = |kind: &str| folder.join(format!("n{units}.{kind}"));
-    let (log, statistics, path) = (file("log"), file("json"), file("path"));
-    let output = Command::new(yosys)
-        .current_dir(workspace_root())
-        .args(["-Q", "-q", "-l"])
-        .arg(&log)
-        .args(["-p", &script(units, &statistics, &path)])
-        .output()
-        .with_context(|| format!("cannot start {}", yosys.display()))?;
-    if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        let last = said.lines().last().unwrap_or("nothing said");
-        bail!("Yosys failed with {units} pixel units ({last}): see {}", log.display());
-    }
+    let (statistics, path) = (file("json"), file("path"));
+    run_yosys(yosys, &folder, &format!("n{units}"), &script(units))?;
     let text = fs::read_to_string(&statistics).with_context(|| format!("cannot read {}", statistics.display()))?;
     let Statistics { design } = serde_json::from_str(&text).context("Yosys' statistics are not as expected")?;
     let path = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
@@ -83,16 +70,14 @@ pub fn synthesize(yosys: &Path, units: u32) -> anyhow::Result<Area> {
 }
 
 /// Yosys' memory block has one clock, so VGA's is taken for the bus's: that changes no count.
-fn script(units: u32, statistics: &Path, path: &Path) -> String {
+fn script(units: u32) -> String {
     let synthesize = "synth_intel_alm -family cyclonev -top halfspace -noiopad -noclkbuf";
     format!(
         "read_slang -j 1 -D SYNTHESIS -F rtl/files.f --top halfspace -G PixelUnits={units}; \
          delete -port halfspace/vga_clk_i; connect -set vga_clk_i clk_i; \
          {synthesize} -run begin:map_bram; memory_bram -rules rtl/area/m10k.txt; \
          techmap -map +/intel_alm/common/bram_m10k_map.v; {synthesize} -run map_lutram:check; \
-         tee -q -o {} stat -json; delete t:MISTRAL_FF t:MISTRAL_M10K; tee -q -o {} ltp",
-        statistics.display(),
-        path.display()
+         tee -q -o n{units}.json stat -json; delete t:MISTRAL_FF t:MISTRAL_M10K; tee -q -o n{units}.path ltp"
     )
 }
 

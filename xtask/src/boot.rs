@@ -1,18 +1,63 @@
-//! From nothing to a firmware that runs: toolchain, QEMU, build, start.
+//! From nothing to a firmware that runs: toolchain, QEMU or the DE1-SoC's simulator, build, start.
 
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, ensure};
 
 use crate::cli::Board;
 use crate::firmware_build::build_firmware;
 use crate::log_decoder::LogDecoder;
-use crate::machine::Emulated;
+use crate::machine::{Emulated, Machine, Simulated};
 use crate::progress::Progress;
 use crate::qemu::{ICOUNT_SHIFT, Qemu, QemuOptions};
 use crate::setup::{ensure_firmware_toolchain, ensure_qemu};
+use crate::simulated::{Build, Design, Simulator};
+
+/// Builds the firmware for a board and starts it, so that every run is the same: in QEMU, or the DE1-SoC's in its
+/// simulator with `design` as its FPGA; with a mesh file in its memory, if there is one. What it says goes to `folder`.
+///
+/// # Errors
+/// When something is missing and cannot be installed, a build fails, or the firmware does not start.
+pub fn start(
+    board: Board,
+    design: Design,
+    mesh: Option<PathBuf>,
+    folder: &Path,
+    progress: &Progress,
+) -> anyhow::Result<Box<dyn Machine>> {
+    if board.runs_in_qemu() {
+        let bootable = Bootable::prepare(board, progress)?;
+        let step = progress.step(format!("booting {board} in QEMU"));
+        let machine = bootable.start_with(folder, |options| {
+            options.icount_shift = Some(ICOUNT_SHIFT);
+            options.mesh = mesh;
+        })?;
+        step.done();
+        return Ok(Box::new(machine));
+    }
+    let (simulator, elf) = simulator(board, design, false, progress)?;
+    let step = progress.step(format!("booting {board} in its simulator"));
+    let machine = Simulated::start(&simulator.with_mesh(mesh), &elf, folder)?;
+    step.done();
+    Ok(Box::new(machine))
+}
+
+/// Builds the DE1-SoC's simulator, for a window if it shall open one, and the firmware.
+///
+/// # Errors
+/// When something is missing and cannot be installed, or a build fails.
+pub fn simulator(
+    board: Board,
+    design: Design,
+    window: bool,
+    progress: &Progress,
+) -> anyhow::Result<(Simulator, PathBuf)> {
+    let toolchain = ensure_firmware_toolchain(progress)?;
+    let simulator = Simulator::prepare(design, window, Build::Checked, progress)?;
+    Ok((simulator, build_firmware(board, &[], &toolchain, progress)?))
+}
 
 /// A firmware that is built, and a QEMU to run it in.
 #[derive(Debug, Clone)]
@@ -29,10 +74,10 @@ impl Bootable {
     /// Makes sure of toolchain and QEMU, and builds the firmware.
     ///
     /// # Errors
-    /// When the board cannot run here, something is missing and cannot be installed, or the
+    /// When QEMU does not have the board, something is missing and cannot be installed, or the
     /// firmware does not build.
     pub fn prepare(board: Board, progress: &Progress) -> anyhow::Result<Self> {
-        check_runs(board)?;
+        ensure!(board.runs_in_qemu(), "QEMU has no {board}: it runs in its simulator");
         let toolchain = ensure_firmware_toolchain(progress)?;
         let qemu = ensure_qemu(progress)?;
         Ok(Self { board, elf: build_firmware(board, &[], &toolchain, progress)?, qemu })
@@ -61,17 +106,6 @@ impl Bootable {
         qemu.resume()?;
         Emulated::new(qemu, log)
     }
-}
-
-/// Says clearly when a board cannot run yet.
-///
-/// # Errors
-/// For a board without an emulator.
-pub fn check_runs(board: Board) -> anyhow::Result<()> {
-    if board.runs_in_qemu() {
-        return Ok(());
-    }
-    bail!("the firmware for {board} builds, but nothing here can run it yet: use `--board {}`", Board::VexpressA9)
 }
 
 /// Starts QEMU, still paused, with its defmt log decoded to `log.txt` in `folder`.

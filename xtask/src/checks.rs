@@ -4,8 +4,10 @@ mod board;
 mod card;
 mod cargo;
 mod fpga;
+mod mesh;
 mod prove;
 mod rtl;
+mod simulator;
 mod uboot;
 mod usb;
 
@@ -84,6 +86,16 @@ const CHECKS: &[Check] = &[
         run: board::demonstration,
     },
     Check { name: "the demonstration on raspi2b equals the golden one", run: board::demonstration_on_raspi2b },
+    Check { name: "the pictures of the five systems equal the golden ones on vexpress-a9", run: board::seeds },
+    Check { name: "a mesh of 70,000 triangles in memory is drawn, a broken one is named", run: mesh::in_memory },
+    Check { name: "the recorded game gives the same score on vexpress-a9", run: board::game },
+    Check { name: "simulator: the image's demonstration equals the golden one", run: simulator::demonstration },
+    Check {
+        name: "simulator: and with the FPGA's design, from its VGA pins",
+        run: simulator::demonstration_on_the_design,
+    },
+    Check { name: "simulator: what goes wrong around the board is told and survived", run: simulator::faults },
+    Check { name: "simulator: clippy finds nothing in its window and its FPGA", run: |_| simulator::clippy() },
     Check { name: "a serial line that loses bytes costs what it carried, no more", run: board::lossy_line },
     Check { name: "the firmware reports faults and panics, and ends", run: board::faults },
     Check { name: "usb: a keyboard on the root port", run: usb::on_the_root_port },

@@ -9,10 +9,12 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::commands;
 use crate::qemu::UsbIds;
-use values::{parse_rotation, parse_units, parse_usb_ids};
+use values::{parse_rotation, parse_scene, parse_style, parse_units, parse_usb_ids};
 
 pub use board::Board;
 pub use values::Rotation;
@@ -21,7 +23,7 @@ pub use values::Rotation;
 const COMMAND_GROUPS: [(&str, &[&str]); 5] = [
     ("See it work", &["demo", "run", "pad"]),
     ("Put it on a board", &["image"]),
-    ("Draw a picture on this computer", &["render", "replay", "decode"]),
+    ("Draw a picture on this computer", &["render", "mesh", "replay", "decode"]),
     ("Check and measure", &["test", "bench", "prove", "area"]),
     ("Keep generated files fresh", &["generate"]),
 ];
@@ -49,7 +51,7 @@ pub struct Cli {
 /// One task.
 #[derive(Debug, Subcommand)]
 pub enum Task {
-    /// Boots the firmware in QEMU, plays a controller session, saves the frames
+    /// Boots the firmware in an emulator, plays a controller session, saves the frames
     ///
     /// Leaves in target/demo: a PNG file for each frame, demo.png (all of them as an animation,
     /// which browsers play), report.json, and what the firmware said in console.txt and log.txt.
@@ -72,13 +74,20 @@ pub enum Task {
     /// starts already; and their parts. The same input gives the same bytes. U-Boot is built from
     /// Debian's source package, which takes a minute the first time. README §Flash goes on from there.
     Image(ImageArguments),
-    /// Draws an OBJ model to a PNG file
+    /// Draws a model to a PNG file
     ///
-    /// The same geometry as on the board, and the FPGA's software model: 320×240 pixels. Front
+    /// Takes OBJ, STL, Babylon JSON (.babylon), binary glTF (.glb), 99-bit lines (.rom, .mem, .coe)
+    /// and .mesh; the file's name tells which. The same geometry as on the board, and the FPGA's
+    /// software model: 320×240 pixels. Front
     /// faces go counter-clockwise. The view is from +z, fitted to the model, field of view 45°;
     /// the light comes from above on the left, in front. With --mvp the matrix is used as it is,
     /// and the light shines in the model's own space.
     Render(RenderArguments),
+    /// Turns a model into a .mesh file, which the firmware draws
+    ///
+    /// Reads what render reads. The file is compact, checked whole before it is drawn, and has a model of
+    /// any size in blocks. By default it has what flat and smooth drawing want.
+    Mesh(MeshArguments),
     /// Draws a file of packet words to a PNG file
     ///
     /// Shows the front buffer or, if the stream has no swap, the back buffer. Bad packets are
@@ -118,6 +127,12 @@ pub struct DemoArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Plays the pictures of the five systems that the project grows out of instead
+    #[arg(long)]
+    pub seeds: bool,
+    /// Plays this scene's parts of both sessions alone
+    #[arg(long, value_name = "NAME", conflicts_with = "seeds", value_parser = parse_scene)]
+    pub scene: Option<Scene>,
     /// Writes the packet words of all frames as well, for replay and decode
     #[arg(long, value_name = "FILE")]
     pub dump: Option<PathBuf>,
@@ -137,12 +152,24 @@ pub struct RunArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
+    /// Scene to begin with: plate, torus, tunnel, solids, wireframe or polygons
+    #[arg(long, value_name = "NAME", value_parser = parse_scene)]
+    pub scene: Option<Scene>,
+    /// Style to begin with: flat, smooth, wireframe, hidden-lines or depth-as-grey
+    #[arg(long, value_name = "STYLE", value_parser = parse_style)]
+    pub style: Option<Style>,
+    /// Has the FPGA's design in Verilator draw, clock by clock, its picture from the VGA pins (de1-soc)
+    #[arg(long)]
+    pub rtl: bool,
     /// Opens no window; stops after --frames and leaves them in --output
     #[arg(long, requires = "frames", requires = "output")]
     pub headless: bool,
     /// Number of frames to draw (with --headless)
     #[arg(long, value_name = "N", requires = "headless", value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: Option<u32>,
+    /// Shows a model: one of those that render reads, put into the board's memory as a .mesh file
+    #[arg(long, value_name = "MODEL")]
+    pub model: Option<PathBuf>,
     /// Plugs in what a usbredir server at this Unix socket has: `cargo xtask pad SOCKET`, say
     #[arg(long, value_name = "SOCKET", conflicts_with = "headless")]
     pub pad: Option<PathBuf>,
@@ -183,8 +210,8 @@ pub struct ImageArguments {
 /// Flags of `render`.
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// Wavefront OBJ file
-    #[arg(value_name = "MODEL.obj")]
+    /// The model: .obj, .stl, .babylon, .glb, .rom or .mesh
+    #[arg(value_name = "MODEL")]
     pub model: PathBuf,
     /// PNG file to write
     #[arg(short, long, value_name = "OUT.png")]
@@ -195,6 +222,10 @@ pub struct RenderArguments {
     /// Model-view-projection matrix instead of the fitted view: a file of 16 numbers, row by row
     #[arg(long, value_name = "FILE", conflicts_with = "rotate")]
     pub mvp: Option<PathBuf>,
+    /// How it is drawn: flat, smooth, wireframe, hidden-lines or depth-as-grey; a model of lines is always
+    /// drawn as lines
+    #[arg(long, value_name = "STYLE", value_parser = parse_style, default_value = "flat")]
+    pub style: Style,
     /// Draws triangles that face away as well
     #[arg(long)]
     pub two_sided: bool,
@@ -208,6 +239,32 @@ pub struct RenderArguments {
     /// Writes the depth buffer as a 16-bit PGM file
     #[arg(long, value_name = "FILE")]
     pub depth: Option<PathBuf>,
+}
+
+/// Flags of `mesh`.
+#[derive(Debug, Args)]
+pub struct MeshArguments {
+    /// The model: .obj, .stl, .babylon, .glb, .rom or .mesh
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// File to write
+    #[arg(short, long, value_name = "FILE.mesh")]
+    pub output: PathBuf,
+    /// Keeps no more than flat drawing wants
+    #[arg(long, conflicts_with = "smooth")]
+    pub flat: bool,
+    /// Keeps no more than smooth drawing wants
+    #[arg(long)]
+    pub smooth: bool,
+    /// Moves the model's middle to the origin and scales it to a radius of 1
+    #[arg(long)]
+    pub scale_to_fit: bool,
+    /// Has faces seen from both sides
+    #[arg(long)]
+    pub two_sided: bool,
+    /// Takes the model's faces as going clockwise, seen from outside
+    #[arg(long)]
+    pub clockwise: bool,
 }
 
 /// Flags of `replay`.
@@ -275,6 +332,9 @@ pub struct BenchArguments {
     /// Prints JSON instead of a table
     #[arg(long)]
     pub json: bool,
+    /// Draws what 1, 2, 4 and 8 pixel units bring on real scenes, as SVG
+    #[arg(long, value_name = "OUT.svg")]
+    pub plot: Option<PathBuf>,
 }
 
 /// Flags of `generate`.
@@ -306,6 +366,7 @@ pub fn run() -> anyhow::Result<()> {
         Task::Pad(arguments) => commands::pad::run(arguments),
         Task::Image(arguments) => commands::image::run(arguments),
         Task::Render(arguments) => commands::render::run(arguments),
+        Task::Mesh(arguments) => commands::mesh::run(arguments),
         Task::Replay(arguments) => commands::replay::run(arguments),
         Task::Decode(arguments) => commands::decode::run(arguments),
         Task::Bench(arguments) => commands::bench::run(arguments),

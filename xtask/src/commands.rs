@@ -6,6 +6,7 @@ pub mod decode;
 pub mod demo;
 pub mod generate;
 pub mod image;
+pub mod mesh;
 pub mod pad;
 pub mod prove;
 pub mod render;

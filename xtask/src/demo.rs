@@ -25,7 +25,7 @@ pub fn play(machine: &mut (impl Machine + ?Sized), parts: &[ScenePart], progress
     let identity = link.identify()?;
     let mut played = Played { report: Report { scenes: Vec::new() }, pictures: Vec::new() };
     for part in parts {
-        let (name, count) = (part.scene.name(), part.frames.len());
+        let (name, count) = (part.title(), part.frames.len());
         ensure!(part.scene.index() < usize::from(identity.scenes), "the firmware has no scene {name}: build it again");
         let step = progress.step(format!("drawing scene {name}, {count} frames"));
         let mut frames = Vec::with_capacity(count);
@@ -35,8 +35,8 @@ pub fn play(machine: &mut (impl Machine + ?Sized), parts: &[ScenePart], progress
             Ok(())
         })?;
         step.done();
-        played.report.scenes.push(SceneReport::new(name, &identity, &frames));
-        let pictures = frames.into_iter().enumerate().map(|(index, frame)| (name.to_string(), index, frame.picture));
+        played.report.scenes.push(SceneReport::new(&name, &identity, &frames));
+        let pictures = frames.into_iter().enumerate().map(|(index, frame)| (name.clone(), index, frame.picture));
         played.pictures.extend(pictures);
     }
     Ok(played)

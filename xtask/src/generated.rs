@@ -1,11 +1,15 @@
 //! The files that are written from one source and committed: the contract's reference page, its
-//! SystemVerilog packages, the plate that the firmware shows, and the demonstration's session.
+//! SystemVerilog packages, the page of the USB core's rules, the plate that the firmware shows, and the
+//! sessions.
 
 mod board_package;
+mod game;
 mod plate;
 mod reference_page;
 mod rtl_package;
+mod seeds;
 mod session;
+mod usb_rules;
 
 use anyhow::Context;
 
@@ -49,7 +53,10 @@ pub fn all() -> anyhow::Result<Vec<GeneratedFile>> {
         GeneratedFile { path: "rtl/halfspace_pkg.sv", text: rtl_package::text() },
         GeneratedFile { path: "fpga/board_io_pkg.sv", text: board_package::text() },
         GeneratedFile { path: "firmware/src/scene/plate.rs", text: plate::text()? },
+        GeneratedFile { path: "docs/usb-rules.md", text: usb_rules::text() },
         GeneratedFile { path: crate::session::DEMO, text: session::text() },
+        GeneratedFile { path: crate::session::SEEDS, text: seeds::text() },
+        GeneratedFile { path: crate::session::GAME, text: game::text() },
     ])
 }
 

@@ -1,15 +1,30 @@
-//! The checksums that the demonstration's frames must have, on every machine.
-
-use std::path::PathBuf;
+//! The checksums that frames must have, on every machine: the demonstration's and those of the five systems.
 
 use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
 
+use crate::demo::Played;
 use crate::paths::workspace_root;
-use crate::report::Report;
+use crate::picture::Picture;
+use crate::report::{Report, SceneReport};
+use crate::session::ScenePart;
 
-/// Where the file lies in the workspace.
-pub const PATH: &str = "host-tests/golden/demo.json";
+/// Where the demonstration's file lies in the workspace.
+pub const DEMO: &str = "host-tests/golden/demo.json";
+/// Where the five systems' file lies.
+pub const SEEDS: &str = "host-tests/golden/seeds.json";
+
+/// Folder of the five systems' pictures: the last frame of each part.
+pub const PICTURES: &str = "docs/seeds";
+
+/// Returns the last picture of each part and where it lies in the workspace.
+pub fn pictures(played: &Played) -> Vec<(String, &Picture)> {
+    let last = |scene: &SceneReport| {
+        let picture = played.pictures.iter().rfind(|(name, ..)| *name == scene.name);
+        picture.map(|(name, _, picture)| (format!("{PICTURES}/{name}.png"), picture))
+    };
+    played.report.scenes.iter().filter_map(last).collect()
+}
 
 /// Frame checksums of each scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -21,7 +36,7 @@ pub struct Golden {
 /// Frame checksums of a scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GoldenScene {
-    /// The scene.
+    /// The scene, and the style if it is not its own.
     pub name: String,
     /// One for each frame, as in the report.
     pub frame_checksums: Vec<String>,
@@ -38,30 +53,51 @@ impl From<&Report> for Golden {
 }
 
 impl Golden {
-    /// Reads the file; `None` when there is none yet.
+    /// Returns what a session of these parts must show, each the beginning of a golden scene.
+    #[must_use]
+    pub fn beginning(&self, parts: &[ScenePart]) -> Self {
+        let scene = |part: &ScenePart| {
+            let golden = self.scenes.iter().find(|scene| scene.name == part.scene.name())?;
+            let frames = golden.frame_checksums.iter().take(part.frames.len()).cloned().collect();
+            Some(GoldenScene { name: golden.name.clone(), frame_checksums: frames })
+        };
+        Self { scenes: parts.iter().filter_map(scene).collect() }
+    }
+
+    /// Reads a file; `None` when there is none yet.
     ///
     /// # Errors
     /// When it is there and cannot be read.
-    pub fn read() -> anyhow::Result<Option<Self>> {
-        let path = path();
+    pub fn read(file: &str) -> anyhow::Result<Option<Self>> {
+        let path = workspace_root().join(file);
         if !path.exists() {
             return Ok(None);
         }
-        let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {PATH}"))?;
-        serde_json::from_str(&text).map(Some).with_context(|| format!("{PATH} is malformed"))
+        let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {file}"))?;
+        serde_json::from_str(&text).map(Some).with_context(|| format!("{file} is malformed"))
     }
 
-    /// Writes the file.
+    /// Returns the scenes that a run has played too, as long as there, in the run's order.
+    #[must_use]
+    pub fn played_in(&self, run: &Self) -> Self {
+        let same = |one: &GoldenScene, other: &GoldenScene| {
+            one.name == other.name && one.frame_checksums.len() == other.frame_checksums.len()
+        };
+        let of = |played: &GoldenScene| self.scenes.iter().find(|scene| same(scene, played)).cloned();
+        Self { scenes: run.scenes.iter().filter_map(of).collect() }
+    }
+
+    /// Writes a file.
     ///
     /// # Errors
     /// When the file system refuses.
-    pub fn write(&self) -> anyhow::Result<()> {
+    pub fn write(&self, file: &str) -> anyhow::Result<()> {
         let text = serde_json::to_string_pretty(self).context("cannot put the checksums into JSON")? + "\n";
-        let path = path();
+        let path = workspace_root().join(file);
         if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder of {PATH}"))?;
+            std::fs::create_dir_all(folder).with_context(|| format!("cannot make the folder of {file}"))?;
         }
-        std::fs::write(path, text).with_context(|| format!("cannot write {PATH}"))
+        std::fs::write(path, text).with_context(|| format!("cannot write {file}"))
     }
 
     /// Checks that a run has these frames.
@@ -73,28 +109,25 @@ impl Golden {
             let (name, frames) = (&expected.name, &expected.frame_checksums);
             if *name != found.name || frames.len() != found.frame_checksums.len() {
                 let count = found.frame_checksums.len();
-                bail!("{} has {count} frames where {PATH} has {name} with {}", found.name, frames.len());
+                bail!("{} has {count} frames where the golden run has {name} with {}", found.name, frames.len());
             }
             for (index, (expected, found)) in frames.iter().zip(&found.frame_checksums).enumerate() {
                 if expected != found {
-                    bail!("frame {index} of scene {name} has checksum {found}, {PATH} has {expected}");
+                    bail!("frame {index} of scene {name} has checksum {found}, the golden run has {expected}");
                 }
             }
         }
         if self.scenes.len() != run.scenes.len() {
-            bail!("{} scenes were played, {PATH} has {}", run.scenes.len(), self.scenes.len());
+            bail!("{} scenes were played, the golden run has {}", run.scenes.len(), self.scenes.len());
         }
         Ok(())
     }
 }
 
-fn path() -> PathBuf {
-    workspace_root().join(PATH)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use firmware::scene::Scene;
 
     fn golden(scenes: &[(&str, &[&str])]) -> Golden {
         let scene = |(name, frames): &(&str, &[&str])| GoldenScene {
@@ -102,6 +135,14 @@ mod tests {
             frame_checksums: frames.iter().map(ToString::to_string).collect(),
         };
         Golden { scenes: scenes.iter().map(scene).collect() }
+    }
+
+    #[test]
+    fn a_beginning_has_the_frames_that_are_played() {
+        let one = golden(&[("plate", &["0x1", "0x2"]), ("torus", &["0x3"]), ("tunnel", &["0x4", "0x5"])]);
+        let part = |scene, count| ScenePart { scene, style: None, frames: vec![None; count] };
+        let played = [part(Scene::Plate, 1), part(Scene::Tunnel, 2)];
+        assert_eq!(one.beginning(&played), golden(&[("plate", &["0x1"]), ("tunnel", &["0x4", "0x5"])]));
     }
 
     #[test]

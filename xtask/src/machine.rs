@@ -1,16 +1,22 @@
-//! Something that runs the application and can be stepped frame by frame: QEMU, or this process.
+//! Something that runs the application and can be stepped frame by frame: QEMU, the DE1-SoC's simulator,
+//! or this process.
 
 mod emulated;
 mod host;
+mod simulated;
 
 use anyhow::bail;
 use controls::serial::{self, Decoder, FRAME_SIZE_MAXIMUM, kind};
 use firmware::link::{self, BoardMessage, Fault, FrameReport, HostMessage, Status};
+use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::picture::Picture;
+use crate::qemu::ICOUNT_SHIFT;
 
 pub use emulated::Emulated;
-pub use host::{with_host, with_recording_host};
+pub use host::{with_host, with_host_and_mesh, with_recording_host};
+pub use simulated::Simulated;
 
 /// A board's end of the link, and its screen.
 pub trait Machine {
@@ -31,15 +37,30 @@ pub trait Machine {
     /// # Errors
     /// When the screen cannot be read, or shows what no framebuffer can hold.
     fn screen(&mut self) -> anyhow::Result<(u32, Picture)>;
+
+    /// Returns how long an instruction takes, in nanoseconds of the machine's time: QEMU's, unless it is another.
+    fn nanoseconds_per_instruction(&self) -> f64 {
+        f64::from(1_u32 << ICOUNT_SHIFT)
+    }
+
+    /// Ends the machine.
+    ///
+    /// # Errors
+    /// When it does not end.
+    fn end(self: Box<Self>) -> anyhow::Result<()> {
+        Ok(())
+    }
 }
 
 /// Who is at the other end of the link.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Identity {
     /// Ticks of a report's durations in a second.
     pub ticks_per_second: u32,
     /// How many scenes there are.
     pub scenes: u8,
+    /// How long an instruction takes.
+    pub nanoseconds_per_instruction: f64,
 }
 
 /// The PC's end of the link.
@@ -60,7 +81,10 @@ impl<'a, M: Machine + ?Sized> Link<'a, M> {
     /// When nobody answers in time, or in another protocol.
     pub fn identify(&mut self) -> anyhow::Result<Identity> {
         match self.ask(HostMessage::Identify, "the firmware's answer")? {
-            BoardMessage::Hello { ticks_per_second, scenes } => Ok(Identity { ticks_per_second, scenes }),
+            BoardMessage::Hello { ticks_per_second, scenes } => {
+                let nanoseconds_per_instruction = self.machine.nanoseconds_per_instruction();
+                Ok(Identity { ticks_per_second, scenes, nanoseconds_per_instruction })
+            }
             other => bail!("the firmware answers {other:?} when asked who it is: build both from the same source"),
         }
     }
@@ -127,6 +151,15 @@ impl<'a, M: Machine + ?Sized> Link<'a, M> {
     /// When the board does not take the message in time.
     pub fn run_freely(&mut self) -> anyhow::Result<()> {
         self.tell(HostMessage::Run)
+    }
+
+    /// Has the machine show another scene, or draw in another style.
+    ///
+    /// # Errors
+    /// When the board does not take the message in time.
+    pub fn show(&mut self, scene: Option<Scene>, style: Option<Style>) -> anyhow::Result<()> {
+        let (scene, style) = (scene.map(|scene| scene.index() as u8), style.map(|style| style.index() as u8));
+        self.tell(HostMessage::Show { scene, style })
     }
 
     /// Draws a frame and returns the board's report of it.

@@ -4,7 +4,9 @@ use std::time::Instant;
 
 use anyhow::Context;
 use controls::{Config, Controls};
-use firmware::scene::{MAX_VERTICES, MeshMemory, Meshes, Scene};
+use firmware::scene::Scene;
+use firmware::scene::meshes::{MAX_VERTICES, MeshMemory, Meshes, Shape};
+use firmware::style::Style;
 use firmware::viewer::Viewer;
 use fixed::types::{I4F28, I32F32};
 use fpga_regs::packet::{Clear, FlatTriangle};
@@ -15,9 +17,11 @@ use geometry::{
 };
 use serde::{Deserialize, Serialize};
 
+use crate::card::program::{BYTES_MAX, Program};
 use crate::machine::{Link, Machine};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport, verdict};
 use crate::session::{self, ScenePart};
+use crate::simulated::{Design, Running};
 use crate::software_fpga::with_model;
 
 /// Runs of which the median counts.
@@ -28,6 +32,14 @@ const FRAMES: usize = 20;
 const SCREENS: i32 = 40;
 /// Frames of each scene on the board.
 const BOARD_FRAMES: usize = 8;
+/// Longest time from the DE1-SoC's entry to its first frame, in milliseconds.
+const FIRST_FRAME_MS: f64 = 300.0;
+/// Attempts to be quick, and frames of each.
+const ATTEMPTS: usize = 10;
+const ATTEMPT_FRAMES: u64 = 10;
+
+/// Most instructions that smooth shading may cost a vertex more than flat shading.
+const SMOOTH_EXTRA_INSTRUCTIONS_MAX: f64 = 25.0;
 
 /// One number.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -80,10 +92,10 @@ impl Measurement {
 pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Result<Vec<Measurement>> {
     let mut link = Link::new(machine);
     let identity = link.identify()?;
-    let mut report = |scene: Scene| {
+    let mut report = |scene: Scene, style: Option<Style>| {
         let part = parts.iter().find(|part| part.scene == scene);
         let part = part.with_context(|| format!("the session has no scene {}", scene.name()))?;
-        let part = ScenePart { scene, frames: part.frames.iter().take(BOARD_FRAMES).copied().collect() };
+        let part = ScenePart { scene, style, frames: part.frames.iter().take(BOARD_FRAMES).copied().collect() };
         let mut frames = Vec::new();
         session::play(&mut link, &part, |frame| {
             frames.push(frame);
@@ -91,13 +103,20 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
         })?;
         anyhow::Ok(SceneReport::new(scene.name(), &identity, &frames))
     };
-    let (plate, torus, tunnel) = (report(Scene::Plate)?, report(Scene::Torus)?, report(Scene::Tunnel)?);
+    let (plate, torus, tunnel) =
+        (report(Scene::Plate, None)?, report(Scene::Torus, None)?, report(Scene::Tunnel, None)?);
+    let smooth = report(Scene::Torus, Some(Style::Smooth))?;
     let per = |name, value| Measurement::new(name, value, "instructions");
     Ok(vec![
         Measurement {
             bar: Some(INSTRUCTIONS_PER_TRIANGLE_MAX),
             ..per("geometry.instructions_per_triangle", torus.instructions_per_triangle)
         },
+        Measurement {
+            bar: Some(SMOOTH_EXTRA_INSTRUCTIONS_MAX),
+            ..per("vertex.smooth_extra_instructions", smooth.instructions_per_vertex - torus.instructions_per_vertex)
+        },
+        per("geometry.instructions_per_smooth_triangle", smooth.instructions_per_triangle),
         per("geometry.instructions_per_vertex", torus.instructions_per_vertex),
         Measurement::new(
             "geometry.drawn_share",
@@ -109,6 +128,41 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
     ])
 }
 
+/// Returns how large the DE1-SoC's program is: code and constants.
+pub fn image(program: &Program) -> Measurement {
+    let bytes = program.bytes.len() as f64;
+    Measurement { bar: Some(BYTES_MAX as f64), ..Measurement::new("de1_soc.image_bytes", bytes, "bytes") }
+}
+
+/// Starts the DE1-SoC in its simulator and returns how long its start takes, in its own time, and how many frames
+/// of its first scene the simulator shows in a second of this computer's: the best of a few attempts, since other
+/// programs can only make it slower. `design` is in the FPGA.
+///
+/// # Errors
+/// When the simulator stops the firmware.
+pub fn on_simulator(board: &mut Running, design: Design) -> anyhow::Result<Vec<Measurement>> {
+    let mut done = board.frames(1)?;
+    let first = Measurement {
+        bar: Some(FIRST_FRAME_MS),
+        ..Measurement::new("de1_soc.first_frame_ms", done.nanoseconds as f64 / 1e6, "ms")
+    };
+    let (name, bar) = match design {
+        Design::Model => ("simulator.model_fps", 60.0),
+        Design::Rtl => ("simulator.rtl_fps", 15.0),
+    };
+    let mut best = 0.0_f64;
+    for _ in 0..ATTEMPTS {
+        let started = Instant::now();
+        done = board.frames(done.frames + ATTEMPT_FRAMES)?;
+        best = best.max(ATTEMPT_FRAMES as f64 / started.elapsed().as_secs_f64());
+    }
+    let rate = Measurement { bar: Some(bar), better: Better::Higher, ..Measurement::new(name, best, "frames/s") };
+    Ok(match design {
+        Design::Model => vec![first, rate],
+        Design::Rtl => vec![rate],
+    })
+}
+
 /// Times geometry and software model in this process.
 ///
 /// # Errors
@@ -116,10 +170,12 @@ pub fn on_board(machine: &mut impl Machine, parts: &[ScenePart]) -> anyhow::Resu
 pub fn on_host() -> anyhow::Result<Vec<Measurement>> {
     let mut mesh_memory = Box::<MeshMemory>::default();
     let meshes = Meshes::new(&mut mesh_memory)?;
-    let mesh = &meshes.of(Scene::Torus).mesh;
-    let view = Viewer::new(Scene::Torus).view(&Controls::new(Config::default()).state());
-    let transform = ScreenTransform::new(&view.model_to_clip, mesh);
-    let light = ObjectLight::new(&view.light, &view.model);
+    let mesh = &meshes.of(Shape::Torus).mesh;
+    let stage = Viewer::new(Scene::Torus).stage(&Controls::new(Config::default()).state());
+    let model = stage.objects.first().context("the torus's stage has no object")?.model;
+    let model_to_clip = stage.camera.projection.times(&stage.camera.view).times(&model);
+    let transform = ScreenTransform::new(&model_to_clip, mesh);
+    let light = ObjectLight::new(&stage.light, &model);
     let mut cache = vec![ScreenVertex::default(); MAX_VERTICES];
     let mut words = Words { buffer: vec![0; 2 * mesh.faces().len() * FlatTriangle::WORDS], used: 0 };
 

@@ -2,24 +2,22 @@
 
 use anyhow::{Context, bail};
 use fixed::types::I4F28;
+use geometry::VertexLook;
+use geometry::look::looks_of_faces;
 use geometry::mesh::{Face, Mesh, Position, Winding};
-
-use crate::obj::ObjModel;
 
 /// Half the range that a model is scaled into: coordinates of −4…4 of the −8…8 there is.
 const LARGEST_LOG2: i32 = 2;
-/// The colour of a face whose corners have none.
-const PLAIN: [u8; 3] = [200, 200, 200];
 
 /// A mesh on the heap, and how it was scaled.
 #[derive(Debug, Clone)]
 pub struct Model {
     positions: Vec<Position>,
     faces: Vec<Face>,
+    /// The model's own lines; without any, its polygons' outlines, each edge once.
+    edges: Vec<[u32; 2]>,
     /// What a stored coordinate is multiplied by to give the file's: 2 to this.
     pub scale_log2: i32,
-    /// Lowest and highest coordinates in the file.
-    pub bounds: [[f64; 3]; 2],
 }
 
 impl Model {
@@ -29,16 +27,8 @@ impl Model {
     /// # Errors
     /// When the coordinates are so large or so small that no power of two of `f64` brings them
     /// into range.
-    pub fn new(obj: &ObjModel) -> anyhow::Result<Self> {
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        let mut largest = 0.0f64;
-        for position in &obj.positions {
-            for axis in 0..3 {
-                bounds[0][axis] = bounds[0][axis].min(position[axis]);
-                bounds[1][axis] = bounds[1][axis].max(position[axis]);
-                largest = largest.max(position[axis].abs());
-            }
-        }
+    pub fn new(source: &models::Model) -> anyhow::Result<Self> {
+        let largest = source.positions.as_flattened().iter().fold(0.0f64, |largest, part| largest.max(part.abs()));
         if largest > 1e100 || (largest > 0.0 && largest < 1e-100) {
             bail!("the model's largest coordinate is {largest:e}: scale the model to a size between 1e-100 and 1e100");
         }
@@ -46,16 +36,23 @@ impl Model {
         let scale = 2.0f64.powi(-scale_log2);
         let scaled = |position: &[f64; 3]| position.map(|part| part * scale);
         let positions =
-            obj.positions.iter().map(|position| position_bits(scaled(position)).map(I4F28::from_bits)).collect();
-        let faces = obj
-            .triangles()
-            .map(|corners| Face {
-                corners,
-                normal: face_normal(corners.map(|corner| obj.positions[corner as usize])),
-                colour: face_colour(obj, corners),
-            })
-            .collect();
-        Ok(Self { positions, faces, scale_log2, bounds })
+            source.positions.iter().map(|position| position_bits(scaled(position)).map(I4F28::from_bits)).collect();
+        let mut faces = Vec::with_capacity(source.triangle_count());
+        for (index, corners) in source.faces().enumerate() {
+            let colour = source.face_colour(index, corners).map(|part| (part * 255.0).round() as u8);
+            faces.extend(corners[1..].windows(2).map(|pair| {
+                let corners = [corners[0], pair[0], pair[1]];
+                let normal = face_normal(corners.map(|corner| source.positions[corner as usize]));
+                Face { corners, normal, colour }
+            }));
+        }
+        let mut edges = source.lines.clone();
+        if edges.is_empty() {
+            edges = source.outlines().map(|[from, to]| [from.min(to), from.max(to)]).collect();
+            edges.sort_unstable();
+            edges.dedup();
+        }
+        Ok(Self { positions, faces, edges, scale_log2 })
     }
 
     /// Returns the model as a mesh, counter-clockwise as OBJ has it.
@@ -65,14 +62,24 @@ impl Model {
     pub fn mesh(&self) -> anyhow::Result<Mesh<'_>> {
         Mesh::new(&self.positions, &self.faces, Winding::CounterClockwise).context("the model is malformed")
     }
-}
 
-fn face_colour(obj: &ObjModel, corners: [u32; 3]) -> [u8; 3] {
-    let Some(colours) = &obj.colours else { return PLAIN };
-    [0, 1, 2].map(|channel| {
-        let sum: f32 = corners.iter().map(|corner| colours[*corner as usize][channel].clamp(0.0, 1.0)).sum();
-        (sum / 3.0 * 255.0).round() as u8
-    })
+    /// Returns what each vertex looks like: the mean of the faces around it.
+    pub fn looks(&self, mesh: &Mesh<'_>) -> Vec<VertexLook> {
+        let mut looks = vec![VertexLook::default(); self.positions.len()];
+        // Both buffers are as long as they must be.
+        let _ = looks_of_faces(mesh, &mut looks, &mut vec![0; self.positions.len()]);
+        looks
+    }
+
+    /// Returns the model's lines, or its polygons' edges, each once.
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// Returns whether there is nothing but lines.
+    pub fn is_wire(&self) -> bool {
+        self.faces.is_empty()
+    }
 }
 
 /// Returns a position in units of 2⁻²⁸, rounded to the nearest and saturated.

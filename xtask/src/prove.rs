@@ -10,12 +10,11 @@ mod solver;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail, ensure};
 
-use crate::paths::target_folder;
+use crate::yosys::run_yosys;
 use query::{Formulas, Goal};
 use solver::Answer;
 
@@ -38,7 +37,7 @@ pub struct Proof {
 
 const fn traversal(units: u32) -> Proof {
     Proof {
-        claim: "the traversal visits every covered pixel's tile exactly once",
+        claim: "the traversal visits every covered pixel's tile exactly once, and ends",
         top: "traversal_proof",
         files: &[
             "rtl/formal/traversal_proof_pkg.sv",
@@ -51,10 +50,10 @@ const fn traversal(units: u32) -> Proof {
     }
 }
 
-/// All proofs, the quickest first.
+/// All proofs, the quickest first, those of the traversal by pixel units.
 pub const PROOFS: [Proof; 5] = [
     Proof {
-        claim: "the command FIFO loses, doubles and reorders no word, and never overflows",
+        claim: "the command FIFO loses, doubles, reorders and keeps back no word",
         top: "command_fifo_proof",
         files: &["rtl/formal/command_fifo_proof.sv"],
         units: None,
@@ -94,17 +93,15 @@ impl Proof {
         self.units.map_or_else(|| self.top.to_string(), |units| format!("{}_n{units}", self.top))
     }
 
-    /// Proves it of the design in `root`, whose `rtl/` it reads; leaves logs and formulas in `target/prove/LABEL`.
+    /// Proves it of the design in `folder`'s `rtl/`; leaves logs and formulas in `folder`.
     ///
     /// # Errors
     /// When an assertion does not hold, or was not decided, with its place; when a state that must be
     /// possible is not; when Yosys or the solver fails.
-    pub fn prove(&self, tools: &Tools, root: &Path, label: &str) -> anyhow::Result<Proven> {
+    pub fn prove(&self, tools: &Tools, folder: &Path) -> anyhow::Result<Proven> {
         let started = Instant::now();
-        let folder = target_folder().join("prove").join(label);
-        fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
         let smt = folder.join(format!("{}.smt2", self.name()));
-        self.write_formulas(tools, root, &smt)?;
+        self.write_formulas(tools, folder)?;
         let text = fs::read_to_string(&smt).with_context(|| format!("cannot read {}", smt.display()))?;
         let formulas = Formulas::new(self.top, &text)?;
         let goals = formulas.goals();
@@ -121,28 +118,15 @@ impl Proof {
         Ok(Proven { assertions, reached, time: started.elapsed() })
     }
 
-    fn write_formulas(&self, tools: &Tools, root: &Path, smt: &Path) -> anyhow::Result<()> {
-        let log = smt.with_extension("log");
-        let top = self.top;
+    fn write_formulas(&self, tools: &Tools, folder: &Path) -> anyhow::Result<()> {
+        let (top, name) = (self.top, self.name());
         let parameter = self.units.map_or_else(String::new, |units| format!("-G PixelUnits={units}"));
         let script = format!(
             "read_slang -j 1 -D SYNTHESIS {parameter} -F rtl/files.f {} --top {top}; prep -top {top} -nokeepdc; \
-             async2sync; dffunmap; opt_clean; write_smt2 {}",
+             async2sync; dffunmap; opt_clean; write_smt2 {name}.smt2",
             self.files.join(" "),
-            smt.display()
         );
-        let output = Command::new(&tools.yosys)
-            .current_dir(root)
-            .args(["-Q", "-q", "-l"])
-            .arg(&log)
-            .args(["-p", &script])
-            .output()
-            .with_context(|| format!("cannot start {}", tools.yosys.display()))?;
-        if !output.status.success() {
-            let said = String::from_utf8_lossy(&output.stderr);
-            bail!("Yosys failed on {top} ({}): see {}", said.lines().last().unwrap_or("nothing said"), log.display());
-        }
-        Ok(())
+        run_yosys(&tools.yosys, folder, &name, &script)
     }
 }
 

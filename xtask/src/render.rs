@@ -4,12 +4,16 @@ pub mod camera;
 pub mod mvp;
 
 use anyhow::Context;
+use firmware::style::Style;
 use fixed::types::{I2F30, I16F16};
 use fpga_regs::packet::{Clear, Packet, swap};
 use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Renderer, Timeouts};
 use geometry::pipeline::DrawStatistics;
-use geometry::{Culling, DirectionalLight, Drawn, Matrix, ObjectLight, ScreenTransform, ScreenVertex, Sink, draw};
+use geometry::{
+    Culling, DirectionalLight, Drawn, LitColour, Matrix, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed,
+    Unlit,
+};
 
 use crate::model::Model;
 use crate::picture::Picture;
@@ -24,6 +28,8 @@ pub struct View {
     pub model: Matrix,
     /// Which faces are drawn.
     pub culling: Culling,
+    /// How they are drawn.
+    pub style: Style,
 }
 
 /// A triangle as it was set up.
@@ -31,7 +37,7 @@ pub struct View {
 pub struct SetUp {
     /// x, y in sixteenths of a pixel and depth 0…65,535 of each corner, counter-clockwise.
     pub corners: [[i32; 3]; 3],
-    /// Red, green, blue, 0…255, lit.
+    /// Red, green, blue, 0…255, lit; where it changes over the triangle, the corners' mean.
     pub colour: [u8; 3],
 }
 
@@ -64,11 +70,41 @@ pub fn render(model: &Model, view: &View) -> anyhow::Result<Rendered> {
         words: Clear { colour: Rgb332::BLACK, depth: DEPTH_FAR }.encode().to_vec(),
         triangles: Vec::new(),
     };
-    let statistics = draw(&mesh, &transform, &light, view.culling, &mut cache, &mut recorder)?;
+    let transformed = Transformed::new(&mesh, &transform, &mut cache)?;
+    let statistics = draw_styled(model, view, &transformed, &light, &mut recorder)?;
     let Recorder { mut words, triangles, .. } = recorder;
     words.extend(swap());
     let (picture, depth) = picture_of(&words)?;
     Ok(Rendered { words, triangles, statistics, picture, depth })
+}
+
+/// Draws in the view's style; a model of lines as lines.
+fn draw_styled(
+    model: &Model,
+    view: &View,
+    transformed: &Transformed<'_>,
+    light: &ObjectLight,
+    recorder: &mut Recorder,
+) -> anyhow::Result<DrawStatistics> {
+    let mesh = model.mesh()?;
+    let style = if model.is_wire() { Style::Wire } else { view.style };
+    let lines = |recorder: &mut Recorder| transformed.draw_lines(model.edges(), &Style::LINES, recorder);
+    Ok(match style {
+        Style::Flat => transformed.draw(light, view.culling, recorder),
+        Style::Smooth => {
+            let looks = model.looks(&mesh);
+            let mut lit = vec![LitColour::default(); looks.len()];
+            let lit = transformed.light_vertices(&looks, light, &mut lit)?;
+            transformed.draw_smooth(&lit, view.culling, recorder)
+        }
+        Style::Wire => lines(recorder),
+        Style::HiddenLines => {
+            let hiding = transformed.draw_unlit(Unlit::HIDING, view.culling, recorder);
+            let lines = lines(recorder);
+            DrawStatistics { drawn: hiding.drawn + lines.drawn, ..hiding }
+        }
+        Style::DepthGrey => transformed.draw_unlit(Unlit::DEPTH_GREY, view.culling, recorder),
+    })
 }
 
 /// Sends words through the driver into the software model and returns what it shows.
@@ -108,16 +144,21 @@ impl Sink for Recorder {
 
     fn take<const N: usize>(&mut self, drawn: Drawn<'_>) {
         self.words.extend(&self.room[..N]);
-        if let Drawn::Flat { corners, colour } = drawn {
-            self.triangles.push(SetUp { corners: corners.map(|corner| [corner.x, corner.y, corner.depth]), colour });
-        }
+        let (corners, colour) = match drawn {
+            Drawn::Flat { corners, colour } => (corners, colour),
+            Drawn::Gouraud { corners, colours } => {
+                let sum = |channel: usize| colours.iter().map(|colour| u32::from(colour[channel])).sum::<u32>();
+                (corners, [0, 1, 2].map(|channel| ((sum(channel) + 1) / 3) as u8))
+            }
+            Drawn::Line { .. } => return,
+        };
+        self.triangles.push(SetUp { corners: corners.map(|corner| [corner.x, corner.y, corner.depth]), colour });
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::obj::parse_obj;
     use crate::render::camera::Fit;
     use std::path::Path;
 
@@ -125,13 +166,18 @@ mod tests {
     const TETRAHEDRON: &str = "v 101 1 1\nv 101 -1 -1\nv 99 1 -1\nv 99 -1 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
 
     fn rendered(culling: Culling) -> Rendered {
-        let obj = parse_obj(TETRAHEDRON.as_bytes(), Path::new("t.obj")).expect("a model");
+        in_style(culling, Style::Flat)
+    }
+
+    fn in_style(culling: Culling, style: Style) -> Rendered {
+        let obj = models::obj::parse_obj(TETRAHEDRON.as_bytes(), Path::new("t.obj"), |_| Ok(None)).expect("a model");
         let model = Model::new(&obj).expect("of a usual size");
         let fit = Fit::new(&obj.positions, [20.0, 30.0, 0.0]);
         let view = View {
             model_to_clip: camera::to_matrix(&fit.model_to_clip(), model.scale_log2),
             model: fit.rotation_matrix(),
             culling,
+            style,
         };
         render(&model, &view).expect("it draws")
     }
@@ -164,5 +210,20 @@ mod tests {
         let (one, both) = (rendered(Culling::BackFaces), rendered(Culling::None));
         assert_eq!(both.statistics.drawn, 4);
         assert_eq!(one.picture, both.picture);
+    }
+
+    #[test]
+    fn every_style_draws_the_same_shape_in_its_own_way() {
+        let covered =
+            |rendered: &Rendered| -> Vec<bool> { rendered.picture.pixels().map(|pixel| pixel != [0; 3]).collect() };
+        let of = |style| in_style(Culling::BackFaces, style);
+        let flat = of(Style::Flat);
+        assert_eq!(covered(&of(Style::Smooth)), covered(&flat));
+        assert_eq!(covered(&of(Style::DepthGrey)), covered(&flat));
+        let count = |style| covered(&of(style)).iter().filter(|is| **is).count();
+        let (wire, hidden) = (count(Style::Wire), count(Style::HiddenLines));
+        // Six edges, of which the far ones are hidden.
+        assert!(wire > hidden && hidden > 300, "{wire} {hidden}");
+        assert_eq!(of(Style::Wire).statistics.drawn, 6);
     }
 }

@@ -1,6 +1,6 @@
 //! Sessions: what a controller said, frame by frame, and playing it on a machine.
 //!
-//! A session file is text. `scene NAME` starts a scene; every other line that is not empty and
+//! A session file is text. `scene NAME` starts a scene in its own style, `scene NAME STYLE` in another; every other line that is not empty and
 //! no comment (`#`) is a frame: a DualShock 3's input report of 49 bytes in hexadecimal, or `-`
 //! for a frame in which the controller says nothing new.
 
@@ -10,12 +10,18 @@ use anyhow::{Context, bail};
 use controls::DualShock3Report;
 use firmware::link::FrameReport;
 use firmware::scene::Scene;
+use firmware::style::Style;
 
 use crate::machine::{Identity, Link, Machine};
 use crate::picture::Picture;
 
 /// Where the demonstration's session lies in the workspace.
 pub const DEMO: &str = "assets/demo.session";
+/// Where the session of the five systems lies in the workspace.
+pub const SEEDS: &str = "assets/seeds.session";
+
+/// Where the recorded game lies in the workspace.
+pub const GAME: &str = "assets/game.session";
 
 /// A frame's report, if the controller sent one.
 pub type ReportBytes = Option<[u8; DualShock3Report::LENGTH]>;
@@ -25,8 +31,20 @@ pub type ReportBytes = Option<[u8; DualShock3Report::LENGTH]>;
 pub struct ScenePart {
     /// The scene.
     pub scene: Scene,
+    /// The style, if not the scene's own.
+    pub style: Option<Style>,
     /// What the controller said, a frame an element.
     pub frames: Vec<ReportBytes>,
+}
+
+impl ScenePart {
+    /// Returns the scene's name and, where it is not its own, the style's, with no space in them.
+    pub fn title(&self) -> String {
+        match self.style {
+            None => self.scene.name().to_string(),
+            Some(style) => format!("{}-{}", self.scene.name(), style.name().replace(' ', "-")),
+        }
+    }
 }
 
 /// A frame that was played.
@@ -56,6 +74,22 @@ pub fn demo() -> anyhow::Result<Vec<ScenePart>> {
     read(&crate::paths::workspace_root().join(DEMO)).context("write it again with `cargo xtask generate`")
 }
 
+/// Reads the session of the five systems.
+///
+/// # Errors
+/// As [`read`].
+pub fn seeds() -> anyhow::Result<Vec<ScenePart>> {
+    read(&crate::paths::workspace_root().join(SEEDS)).context("write it again with `cargo xtask generate`")
+}
+
+/// Reads the recorded game.
+///
+/// # Errors
+/// As [`read`].
+pub fn game() -> anyhow::Result<Vec<ScenePart>> {
+    read(&crate::paths::workspace_root().join(GAME)).context("write it again with `cargo xtask generate`")
+}
+
 /// Parses a session's text.
 ///
 /// # Errors
@@ -67,11 +101,14 @@ pub fn parse(text: &str) -> anyhow::Result<Vec<ScenePart>> {
         if line.is_empty() || line.starts_with('#') {
             continue;
         }
-        if let Some(name) = line.strip_prefix("scene ") {
-            let scene = Scene::ALL.iter().find(|scene| scene.name() == name.trim());
-            let names: Vec<&str> = Scene::ALL.iter().map(|scene| scene.name()).collect();
-            let scene = scene.with_context(|| format!("line {number}: no scene `{name}`: use {}", names.join(", ")))?;
-            parts.push(ScenePart { scene: *scene, frames: Vec::new() });
+        if let Some(words) = line.strip_prefix("scene ") {
+            let (name, style) = words.trim().split_once(' ').unwrap_or((words.trim(), ""));
+            let scene = scene_named(name).with_context(|| format!("line {number}"))?;
+            let style = match style.trim() {
+                "" => None,
+                style => Some(style_named(style).with_context(|| format!("line {number}"))?),
+            };
+            parts.push(ScenePart { scene, style, frames: Vec::new() });
             continue;
         }
         let report = parse_report(line).with_context(|| format!("line {number}"))?;
@@ -82,6 +119,27 @@ pub fn parse(text: &str) -> anyhow::Result<Vec<ScenePart>> {
     }
     anyhow::ensure!(parts.iter().any(|part| !part.frames.is_empty()), "there is no frame in it: get the file again");
     Ok(parts)
+}
+
+/// Returns the scene of a name.
+///
+/// # Errors
+/// When there is none, with those that there are.
+pub fn scene_named(name: &str) -> anyhow::Result<Scene> {
+    let names: Vec<&str> = Scene::ALL.iter().map(|scene| scene.name()).collect();
+    let scene = Scene::ALL.iter().find(|scene| scene.name() == name);
+    scene.copied().with_context(|| format!("no scene `{name}`: use {}", names.join(", ")))
+}
+
+/// Returns the style of a name; a hyphen may stand for a space.
+///
+/// # Errors
+/// When there is none, with those that there are.
+pub fn style_named(name: &str) -> anyhow::Result<Style> {
+    let names: Vec<String> = Style::ALL.iter().map(|style| style.name().replace(' ', "-")).collect();
+    let index = names.iter().position(|known| *known == name.replace(' ', "-"));
+    let style = index.and_then(Style::from_index);
+    style.with_context(|| format!("no style `{name}`: use {}", names.join(", ")))
 }
 
 fn parse_report(line: &str) -> anyhow::Result<ReportBytes> {
@@ -105,7 +163,8 @@ fn parse_report(line: &str) -> anyhow::Result<ReportBytes> {
 pub fn format(parts: &[ScenePart]) -> String {
     let mut text = String::new();
     for part in parts {
-        text.push_str(&format!("scene {}\n", part.scene.name()));
+        let style = part.style.map(|style| format!(" {}", style.name())).unwrap_or_default();
+        text.push_str(&format!("scene {}{style}\n", part.scene.name()));
         for frame in &part.frames {
             match frame {
                 Some(report) => text.extend(report.iter().map(|byte| format!("{byte:02x}"))),
@@ -127,6 +186,9 @@ pub fn play<M: Machine + ?Sized>(
     mut each: impl FnMut(PlayedFrame) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     link.begin(part.scene.index() as u8)?;
+    if let Some(style) = part.style {
+        link.show(None, Some(style))?;
+    }
     for (index, frame) in part.frames.iter().enumerate() {
         if let Some(report) = frame {
             link.dualshock3(report)?;
@@ -136,7 +198,7 @@ pub fn play<M: Machine + ?Sized>(
         if let Some(checksum) = report.checksum.filter(|checksum| *checksum != screen_checksum) {
             bail!(
                 "frame {index} of scene {}: the screen's checksum is {screen_checksum:#010x}, the framebuffer's {checksum:#010x}",
-                part.scene.name()
+                part.title()
             );
         }
         each(PlayedFrame { report, screen_checksum, picture })?;
@@ -144,12 +206,10 @@ pub fn play<M: Machine + ?Sized>(
     Ok(())
 }
 
-/// Returns the instructions that a duration stands for, when QEMU counts them.
-///
-/// With `-icount shift=N` an instruction takes 2^N nanoseconds of the machine's time.
+/// Returns the instructions that a duration stands for, on a machine where each takes the same time.
 pub fn instructions(ticks: u64, identity: &Identity) -> f64 {
     let nanoseconds = ticks as f64 * 1e9 / f64::from(identity.ticks_per_second);
-    nanoseconds / f64::from(1u32 << crate::qemu::ICOUNT_SHIFT)
+    nanoseconds / identity.nanoseconds_per_instruction
 }
 
 #[cfg(test)]
@@ -160,8 +220,8 @@ mod tests {
     fn a_session_comes_back_as_it_was_written() {
         let report = DualShock3Report::default().to_bytes();
         let parts = vec![
-            ScenePart { scene: Scene::Plate, frames: vec![Some(report), None] },
-            ScenePart { scene: Scene::Tunnel, frames: vec![None] },
+            ScenePart { scene: Scene::Plate, style: None, frames: vec![Some(report), None] },
+            ScenePart { scene: Scene::Tunnel, style: Some(Style::HiddenLines), frames: vec![None] },
         ];
         assert_eq!(parse(&format(&parts)).expect("what was written is read"), parts);
     }
@@ -172,6 +232,7 @@ mod tests {
             ("-", "line 1: a frame before"),
             ("# nothing\nscene plate\n", "there is no frame in it"),
             ("scene cube", "no scene `cube`: use plate, torus, tunnel"),
+            ("scene plate pink", "no style `pink`: use flat, smooth, wireframe, hidden-lines, depth-as-grey"),
             ("scene plate\n\n0102", "line 3: 4 characters"),
             (&format!("scene plate\n{}", "0g".repeat(49)), "`0g` is no hexadecimal byte"),
         ] {

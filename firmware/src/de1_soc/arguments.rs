@@ -1,9 +1,12 @@
-//! What U-Boot's `go` tells the program: `go ADDRESS rbf IMAGE BYTES` has it configure the FPGA with
-//! the image (.rbf) that was loaded to `IMAGE`; both numbers are hexadecimal, as U-Boot's are.
+//! What U-Boot's `go` tells the program: `rbf IMAGE BYTES` has it configure the FPGA with the image (.rbf) that was
+//! loaded to `IMAGE`, `mesh FILE BYTES` show the mesh file that was loaded to `FILE`. All numbers are
+//! hexadecimal, as U-Boot's are.
 //!
 //! ```text
 //! load mmc 0:1 0x08000000 halfspace.rbf
-//! go 0x01000000 rbf 0x08000000 ${filesize}
+//! setenv bits ${filesize}
+//! load mmc 0:1 0x0a000000 model.mesh
+//! go 0x01000000 rbf 0x08000000 ${bits} mesh 0x0a000000 ${filesize}
 //! ```
 
 use core::fmt;
@@ -18,7 +21,7 @@ const LENGTH: usize = 24;
 /// The words after `go`, the address of the program first.
 pub type Words = Vec<String<LENGTH>, WORDS>;
 
-/// An FPGA image in memory.
+/// A file in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Image {
     /// Its first byte; a multiple of 4.
@@ -27,16 +30,27 @@ pub struct Image {
     pub bytes: u32,
 }
 
+/// What the words ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Asked {
+    /// The image that the FPGA is to be configured with.
+    pub image: Option<Image>,
+    /// The mesh file that is to be shown.
+    pub mesh: Option<Image>,
+}
+
 /// Why the words could not be followed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ArgumentError {
     /// A word that means nothing here.
     Unknown(String<LENGTH>),
-    /// `rbf` without its two numbers.
-    Missing,
+    /// `rbf` or `mesh` without its two numbers.
+    Missing(String<LENGTH>),
+    /// `rbf` or `mesh` a second time.
+    Twice(String<LENGTH>),
     /// A word that is no hexadecimal number.
     NotANumber(String<LENGTH>),
-    /// An image that does not lie where the program can read it.
+    /// A file that does not lie where the program can read it.
     Misplaced(Image),
 }
 
@@ -44,37 +58,49 @@ impl fmt::Display for ArgumentError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unknown(word) => write!(out, "argument `{word}` means nothing")?,
-            Self::Missing => out.write_str("argument `rbf` wants two numbers")?,
+            Self::Missing(word) => write!(out, "argument `{word}` wants two numbers")?,
+            Self::Twice(word) => write!(out, "argument `{word}` comes twice")?,
             Self::NotANumber(word) => write!(out, "argument `{word}` is no hexadecimal number")?,
             Self::Misplaced(Image { address, bytes }) => write!(
                 out,
-                "an image of {bytes:#x} bytes at {address:#010x} does not lie on a multiple of 4 in {FPGA_IMAGE:#010x}…{:#010x}",
+                "a file of {bytes:#x} bytes at {address:#010x} does not lie on a multiple of 4 in {FPGA_IMAGE:#010x}…{:#010x}",
                 FPGA_IMAGE_END - 1
             )?,
         }
-        write!(out, ": use `go ADDRESS rbf {FPGA_IMAGE:#010x} ${{filesize}}`")
+        write!(out, ": use `go ADDRESS rbf {FPGA_IMAGE:#010x} ${{filesize}}`, and `mesh` likewise")
     }
 }
 
-/// Returns the image that the FPGA is to be configured with, if one is named.
+/// Returns what the words ask for.
 ///
 /// # Errors
-/// [`ArgumentError`]; the program goes on without.
-pub fn image(words: &Words) -> Result<Option<Image>, ArgumentError> {
-    match words.get(1..).unwrap_or_default() {
-        [] => Ok(None),
-        [rbf, address, bytes] if rbf == "rbf" => {
-            let image = Image { address: hexadecimal(address)?, bytes: hexadecimal(bytes)? };
-            let end = u64::from(image.address) + u64::from(image.bytes).next_multiple_of(4);
-            let inside = image.address >= FPGA_IMAGE && end <= u64::from(FPGA_IMAGE_END);
-            if image.bytes > 0 && image.address.is_multiple_of(4) && inside {
-                Ok(Some(image))
-            } else {
-                Err(ArgumentError::Misplaced(image))
-            }
+/// [`ArgumentError`]; the program goes on without any of it.
+pub fn asked(words: &Words) -> Result<Asked, ArgumentError> {
+    let mut asked = Asked::default();
+    let mut rest = words.get(1..).unwrap_or_default();
+    while let [name, others @ ..] = rest {
+        let slot = match name.as_str() {
+            "rbf" => &mut asked.image,
+            "mesh" => &mut asked.mesh,
+            _ => return Err(ArgumentError::Unknown(name.clone())),
+        };
+        let [address, bytes, others @ ..] = others else { return Err(ArgumentError::Missing(name.clone())) };
+        if slot.replace(image(address, bytes)?).is_some() {
+            return Err(ArgumentError::Twice(name.clone()));
         }
-        [rbf, ..] if rbf == "rbf" => Err(ArgumentError::Missing),
-        [word, ..] => Err(ArgumentError::Unknown(word.clone())),
+        rest = others;
+    }
+    Ok(asked)
+}
+
+fn image(address: &String<LENGTH>, bytes: &String<LENGTH>) -> Result<Image, ArgumentError> {
+    let image = Image { address: hexadecimal(address)?, bytes: hexadecimal(bytes)? };
+    let end = u64::from(image.address) + u64::from(image.bytes).next_multiple_of(4);
+    let inside = image.address >= FPGA_IMAGE && end <= u64::from(FPGA_IMAGE_END);
+    if image.bytes > 0 && image.address.is_multiple_of(4) && inside {
+        Ok(image)
+    } else {
+        Err(ArgumentError::Misplaced(image))
     }
 }
 
@@ -135,50 +161,65 @@ mod tests {
     use super::*;
     use std::string::ToString;
 
-    fn parse(line: &str) -> Result<Option<Image>, ArgumentError> {
+    fn parse(line: &str) -> Result<Asked, ArgumentError> {
         let mut words = Words::new();
         for word in line.split(' ') {
             words.push(String::try_from(word).unwrap()).unwrap();
         }
-        image(&words)
+        asked(&words)
     }
 
     #[test]
-    fn an_image_is_named_in_hexadecimal_with_or_without_a_prefix() {
-        let wanted = Ok(Some(Image { address: 0x0800_0000, bytes: 0x001a_2b3c }));
-        assert_eq!(parse("0x01000000 rbf 0x08000000 1a2b3c"), wanted);
-        assert_eq!(parse("01000000 rbf 08000000 0x1A2B3C"), wanted);
-        assert_eq!(parse("0x01000000"), Ok(None));
-        assert_eq!(image(&Words::new()), Ok(None));
+    fn files_are_named_in_hexadecimal_with_or_without_a_prefix() {
+        let image = Some(Image { address: 0x0800_0000, bytes: 0x001a_2b3c });
+        let mesh = Some(Image { address: 0x0a00_0000, bytes: 0x77 });
+        assert_eq!(parse("0x01000000 rbf 0x08000000 1a2b3c"), Ok(Asked { image, mesh: None }));
+        assert_eq!(parse("01000000 rbf 08000000 0x1A2B3C"), Ok(Asked { image, mesh: None }));
+        assert_eq!(parse("01000000 mesh a000000 77"), Ok(Asked { image: None, mesh }));
+        assert_eq!(parse("01000000 mesh a000000 77 rbf 8000000 1a2b3c"), Ok(Asked { image, mesh }));
+        assert_eq!(parse("01000000 rbf 8000000 1a2b3c mesh a000000 77"), Ok(Asked { image, mesh }));
+        assert_eq!(parse("0x01000000"), Ok(Asked::default()));
+        assert_eq!(asked(&Words::new()), Ok(Asked::default()));
     }
 
     #[test]
     fn every_mistake_names_the_word_and_the_remedy() {
         for (line, word) in [
             ("1000000 rfb 8000000 100", "`rfb` means nothing"),
-            ("1000000 rbf", "two numbers"),
-            ("1000000 rbf 8000000", "two numbers"),
-            ("1000000 rbf 8000000 100 7", "two numbers"),
+            ("1000000 rbf", "`rbf` wants two numbers"),
+            ("1000000 mesh 8000000", "`mesh` wants two numbers"),
+            ("1000000 rbf 8000000 100 7", "`7` means nothing"),
+            ("1000000 rbf 8000000 100 mesh", "`mesh` wants two numbers"),
+            ("1000000 rbf 8000000 100 rbf 8000000 4", "`rbf` comes twice"),
             ("1000000 rbf 8o00000 100", "`8o00000` is no"),
             ("1000000 rbf 8000000 ${filesize}", "`${filesize}` is no"),
             ("1000000 rbf +8000000 100", "`+8000000` is no"),
-            ("1000000 rbf 108000000 100", "`108000000` is no"),
+            ("1000000 mesh 108000000 100", "`108000000` is no"),
         ] {
             let error = parse(line).unwrap_err().to_string();
             assert!(error.contains(word), "{error}");
-            assert!(error.ends_with("use `go ADDRESS rbf 0x08000000 ${filesize}`"), "{error}");
+            assert!(error.ends_with("use `go ADDRESS rbf 0x08000000 ${filesize}`, and `mesh` likewise"), "{error}");
         }
     }
 
     #[test]
-    fn an_image_lies_whole_in_its_window() {
-        for good in ["8000000 8000000", "ffffffc 1", "ffffffc 4"] {
-            assert!(matches!(parse(&["1000000 rbf ", good].concat()), Ok(Some(_))), "{good}");
-        }
-        for bad in
-            ["7fffffc 8", "8000000 8000001", "8000002 4", "ffffffc 5", "8000000 0", "8000000 ffffffff", "ffffffff 1"]
-        {
-            assert!(matches!(parse(&["1000000 rbf ", bad].concat()), Err(ArgumentError::Misplaced(_))), "{bad}");
+    fn a_file_lies_whole_in_its_window() {
+        for name in ["rbf", "mesh"] {
+            let of = |numbers: &str| parse(&["1000000 ", name, " ", numbers].concat());
+            for good in ["8000000 8000000", "ffffffc 1", "ffffffc 4"] {
+                assert!(of(good).is_ok_and(|asked| asked != Asked::default()), "{good}");
+            }
+            for bad in [
+                "7fffffc 8",
+                "8000000 8000001",
+                "8000002 4",
+                "ffffffc 5",
+                "8000000 0",
+                "8000000 ffffffff",
+                "ffffffff 1",
+            ] {
+                assert!(matches!(of(bad), Err(ArgumentError::Misplaced(_))), "{bad}");
+            }
         }
     }
 }

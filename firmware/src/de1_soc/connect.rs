@@ -40,9 +40,12 @@ impl ViewerBoard {
 
     /// Configures the FPGA if U-Boot's `go` named an image.
     pub(super) fn configure_if_asked(&mut self) {
-        match arguments::image(&self.arguments) {
-            Ok(None) => {}
-            Ok(Some(image)) => self.configure(image),
+        match arguments::asked(&self.arguments) {
+            Ok(asked) => {
+                if let Some(image) = asked.image {
+                    self.configure(image);
+                }
+            }
             Err(error) => {
                 let _ = writeln!(self.console, "{error}");
             }
@@ -62,6 +65,16 @@ impl ViewerBoard {
             let _ = writeln!(self.console, "{error}");
             self.count_fault();
         }
+    }
+
+    /// Returns the mesh file that U-Boot's `go` named.
+    pub(super) fn asked_mesh(&self) -> Option<&'static [u8]> {
+        // What is wrong with the words was told when the FPGA's image was looked for.
+        let Image { address, bytes } = arguments::asked(&self.arguments).ok()?.mesh?;
+        // SAFETY: `arguments` checked that the file lies in a window which the table maps and nobody writes to.
+        Some(unsafe {
+            core::slice::from_raw_parts(core::ptr::with_exposed_provenance(address as usize), bytes as usize)
+        })
     }
 
     /// Waits until the FPGA runs, opens the bridges and lets `attempt` find out what is behind them; until

@@ -50,7 +50,7 @@ pub const KEY_BIT: u32 = 25;
 
 /// Where the USB host controller reads and writes.
 pub const USB_MEMORY: usize = 0x0700_0000;
-/// First byte of where U-Boot may leave an FPGA image for the program to configure with.
+/// First byte of where U-Boot may leave files for the program: an FPGA image, a mesh file.
 pub const FPGA_IMAGE: u32 = 0x0800_0000;
 /// One more than its last.
 pub const FPGA_IMAGE_END: u32 = 0x1000_0000;

@@ -7,6 +7,8 @@
 //! | LEDR0 to LEDR5 | a bar: one for each ten frames a second |
 //! | LEDR8 | lit for a second after a fault |
 //! | LEDR9 | lit since the first fault |
+//!
+//! While the game is played the displays show its score instead.
 
 /// Frames and faults, counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -62,9 +64,31 @@ impl Readout {
     }
 }
 
+/// Returns a number's digits for the displays, HEX0 first, without leading zeros; 999,999 for more.
+#[must_use]
+pub fn decimal(number: u32) -> [Option<u8>; 6] {
+    let mut rest = number.min(999_999);
+    let mut digits = [None; 6];
+    for digit in &mut digits {
+        *digit = Some((rest % 10) as u8);
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    digits
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_score_stands_on_the_right_without_leading_zeros() {
+        assert_eq!(decimal(0), [Some(0), None, None, None, None, None]);
+        assert_eq!(decimal(1_250), [Some(0), Some(5), Some(2), Some(1), None, None]);
+        assert_eq!(decimal(u32::MAX), [Some(9); 6]);
+    }
 
     /// Sixty frames in a second.
     fn running() -> Readout {

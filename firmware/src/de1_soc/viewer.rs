@@ -15,7 +15,7 @@ use super::gpio::{Input, Output};
 use super::history::Verdict;
 use super::interrupts::{fpga_calls, unexpected_interrupts, with_usb};
 use super::memory_map::{CLUSTER, FPGA_INTERRUPT};
-use super::readout::Readout;
+use super::readout::{Readout, decimal};
 use super::reset_cause::ResetCause;
 use super::uart16550::Uart16550;
 use crate::armv7a::sleep::sleep_unless;
@@ -43,6 +43,8 @@ pub(super) struct ViewerBoard {
     pub(super) verdict: Verdict,
     pub(super) arguments: Words,
     readout: Readout,
+    /// The score, while the game is played.
+    score: Option<u32>,
     /// What the panel was when the application was told last.
     told: Option<PanelReport>,
     frames: u32,
@@ -57,7 +59,7 @@ impl ViewerBoard {
     pub(super) fn new(drivers: Drivers) -> Self {
         let Drivers { console, link, clock, led, key, fpga, panel, start, cause, verdict, arguments } = drivers;
         let readout = Readout::new(clock.microseconds());
-        let (told, frames, calls, deaf_told, unexpected) = (None, 0, 0, false, 0);
+        let (score, told, frames, calls, deaf_told, unexpected) = (None, None, 0, 0, false, 0);
         Self {
             console,
             link,
@@ -71,6 +73,7 @@ impl ViewerBoard {
             verdict,
             arguments,
             readout,
+            score,
             told,
             frames,
             calls,
@@ -99,7 +102,7 @@ impl ViewerBoard {
         for number in 0..10 {
             let _ = self.panel.led(number).set_state((lit >> number & 1 == 1).into());
         }
-        self.panel.set_digits(self.readout.digits());
+        self.panel.set_digits(self.score.map_or_else(|| self.readout.digits(), decimal));
         self.panel.show();
     }
 
@@ -175,6 +178,10 @@ impl Board for ViewerBoard {
         None
     }
 
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        self.asked_mesh()
+    }
+
     /// A frame's fence waits for the vertical blank already.
     fn pace(&mut self) {}
 
@@ -192,6 +199,10 @@ impl Board for ViewerBoard {
             self.check_interrupts();
         }
         self.show_readout(now);
+    }
+
+    fn show_score(&mut self, score: Option<u32>) {
+        self.score = score;
     }
 
     fn show_fault(&mut self) {

@@ -40,6 +40,9 @@ pub const GPU_MEMORY: usize = 0x3C00_0000;
 /// One more than its last.
 pub const GPU_MEMORY_END: usize = 0x3F00_0000;
 
+/// Where a mesh file may be left before the start, and the end of the room for it.
+pub const MESH_FILE: core::ops::Range<usize> = 0x0800_0000..0x0800_0000 + (128 << 20);
+
 /// What the MMU maps; the linker's view is `memory.x`.
 pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
     Region { start: 0x0100_0000, sections: 16, memory: Memory::Code },
@@ -48,6 +51,7 @@ pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
     Region { start: 0x0600_0000, sections: 1, memory: Memory::Fault },
     // What devices read and write themselves.
     Region { start: 0x0700_0000, sections: 1, memory: Memory::Uncached },
+    Region { start: MESH_FILE.start as u32, sections: 128, memory: Memory::Constants },
     Region { start: 0x3C00_0000, sections: 48, memory: Memory::Uncached },
     Region { start: 0x3F00_0000, sections: 16, memory: Memory::Device },
 ]);

@@ -7,11 +7,13 @@ use embedded_io::{Read, ReadReady, Write as _};
 use super::Board as Drivers;
 use super::framebuffer::Framebuffer;
 use super::interrupts::{sleep_a_tick_unless, start_ticking, stop_ticking, unexpected_interrupts, with_usb};
+use super::memory_map::MESH_FILE;
 use super::mini_uart::Console;
 use super::system_timer::{HERTZ, SystemTimer};
 use crate::app::{Application, Memory};
 use crate::board::Board;
 use crate::intake::Intake;
+use crate::left_in_memory;
 use crate::pl011::Pl011;
 use crate::serial::Link;
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
@@ -93,6 +95,11 @@ impl Board for ViewerBoard {
 
     fn picture_checksum(&mut self, port: &mut Self::Port) -> Option<u32> {
         Some(port.checksum())
+    }
+
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        // SAFETY: the table maps the window, and nobody writes to it.
+        unsafe { left_in_memory::window(MESH_FILE) }
     }
 
     fn pace(&mut self) {

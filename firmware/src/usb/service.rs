@@ -10,7 +10,7 @@ use super::dwc2::{Dwc2Core, Now};
 use super::forever::Forever;
 
 /// Bytes of the bus's future.
-const FUTURE_BYTES: usize = 64 * 1024;
+const FUTURE_BYTES: usize = 16 * 1024;
 
 /// Memory for a service; large, so a static.
 pub struct Room<T: 'static> {

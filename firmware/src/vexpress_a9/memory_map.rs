@@ -36,6 +36,9 @@ pub const LINK_INTERRUPT: InterruptId = InterruptId(38);
 /// KMI0's interrupt.
 pub const KEYBOARD_INTERRUPT: InterruptId = InterruptId(44);
 
+/// Where a mesh file may be left before the start, and the end of the room for it.
+pub const MESH_FILE: core::ops::Range<usize> = 0x6900_0000..0x6900_0000 + (112 << 20);
+
 /// What the MMU maps; the linker's view is `memory.x` with the numbers of `build.rs`.
 pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
     Region { start: 0x1000_0000, sections: 1, memory: Memory::Device },
@@ -45,4 +48,5 @@ pub static TRANSLATION_TABLE: TranslationTable = TranslationTable::new(&[
     // The stack guard, 8 MiB below the end of the data.
     Region { start: 0x6780_0000, sections: 1, memory: Memory::Fault },
     Region { start: 0x6800_0000, sections: 4, memory: Memory::Uncached },
+    Region { start: MESH_FILE.start as u32, sections: 112, memory: Memory::Constants },
 ]);

@@ -4,6 +4,7 @@ use controls::Report;
 use embedded_hal::digital::OutputPin;
 use embedded_io::{Read, ReadReady, Write};
 
+use super::memory_map::MESH_FILE;
 use super::pl050::Keyboard;
 use super::pl111::Pl111;
 use super::{Board as Drivers, leds::Led, ticks};
@@ -13,6 +14,7 @@ use crate::board::Board;
 use crate::cortex_a9::global_timer::{Delay, GlobalTimer};
 use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::intake::Intake;
+use crate::left_in_memory;
 use crate::pl011::Pl011;
 use crate::serial::{Console, Link};
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
@@ -83,6 +85,11 @@ impl Board for ViewerBoard {
 
     fn picture_checksum(&mut self, port: &mut ModelPort<Pl111>) -> Option<u32> {
         Some(port.checksum())
+    }
+
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        // SAFETY: the table maps the window, and nobody writes to it.
+        unsafe { left_in_memory::window(MESH_FILE) }
     }
 
     fn pace(&mut self) {

@@ -11,3 +11,4 @@ mod times;
 mod hubs;
 mod root;
 mod rules;
+mod whole;

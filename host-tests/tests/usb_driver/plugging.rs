@@ -2,7 +2,7 @@
 
 use dwc2_host::{Config, PIPES, SpeedLimit};
 use embassy_usb_driver::EndpointType;
-use embassy_usb_driver::host::pipe::{Control, In, InOut, Interrupt};
+use embassy_usb_driver::host::pipe::{self, Control, In, InOut, Interrupt};
 use embassy_usb_driver::host::{DeviceEvent, HostError, PipeError, UsbHostAllocator, UsbHostController, UsbPipe};
 use usb_model::hub::Hub;
 use usb_model::shared::Shared;
@@ -232,12 +232,47 @@ fn endpoints_that_do_not_exist_are_refused() {
     for (address, info, error) in [
         (128, interrupt(8), HostError::InvalidDescriptor),
         (1, interrupt(0), HostError::InvalidDescriptor),
-        (1, interrupt(1_024), HostError::InsufficientMemory),
+        (1, interrupt(65), HostError::InvalidDescriptor),
         (1, endpoint(1, EndpointType::Interrupt, false, 8, 1), HostError::InvalidDescriptor),
         (1, endpoint(1, EndpointType::Bulk, true, 8, 1), HostError::InvalidDescriptor),
         (1, endpoint(1, EndpointType::Isochronous, true, 8, 1), HostError::InvalidDescriptor),
     ] {
         assert_eq!(allocator.alloc_pipe::<Interrupt, In>(address, &info, None).err(), Some(error));
+    }
+}
+
+#[test]
+fn packets_that_a_speed_does_not_have_are_refused() {
+    use EndpointType::{Bulk, Control, Interrupt};
+    // USB 2.0 §5.5.3, §5.7.3, §5.8.3.
+    for (speed, kind, sizes) in [
+        (Speed::Low, Control, &[16, 64][..]),
+        (Speed::Low, Interrupt, &[0, 9, 64]),
+        (Speed::Low, Bulk, &[8, 64]),
+        (Speed::Full, Control, &[0, 9, 512]),
+        (Speed::Full, Interrupt, &[0, 65, 1_024]),
+        (Speed::Full, Bulk, &[0, 9, 512]),
+        (Speed::High, Control, &[8, 32, 512]),
+        (Speed::High, Interrupt, &[0, 1_025]),
+        (Speed::High, Bulk, &[8, 64]),
+    ] {
+        let rig = Rig::new(Config::new());
+        rig.plug(Gadget::new(speed));
+        rig.run(crate::stack::connected(&rig));
+        let allocator = rig.driver.allocator();
+        for &bytes in sizes {
+            let info = endpoint(if kind == Control { 0 } else { 1 }, kind, true, bytes, 1);
+            let error = match kind {
+                Control => allocator.alloc_pipe::<pipe::Control, pipe::InOut>(1, &info, None).err(),
+                Bulk => allocator.alloc_pipe::<pipe::Bulk, In>(1, &info, None).err(),
+                _ => allocator.alloc_pipe::<pipe::Interrupt, In>(1, &info, None).err(),
+            };
+            assert_eq!(error, Some(HostError::InvalidDescriptor), "{speed:?} {kind:?} {bytes}");
+        }
+        let largest = endpoint(1, Interrupt, true, 1_024, 1);
+        let error = allocator.alloc_pipe::<pipe::Interrupt, In>(1, &largest, None).err();
+        let no_room = speed == Speed::High;
+        assert_eq!(error == Some(HostError::InsufficientMemory), no_room, "{speed:?}");
     }
 }
 

@@ -218,6 +218,11 @@ impl Rig {
         rules
     }
 
+    /// What was broken so far, in words, or the first of it; it is forgiven.
+    pub fn take_violations(&self) -> Vec<String> {
+        self.log.take().iter().take(12).map(ToString::to_string).collect()
+    }
+
     /// Time until the next interrupt or poll, and the driver's answer to it.
     pub fn step(&self) {
         let next = self.next_poll.get();
@@ -248,6 +253,27 @@ impl Rig {
                 }
                 *until > now
             });
+        }
+    }
+
+    /// Lets time pass until the driver was polled.
+    pub fn tick(&self) {
+        let next = self.next_poll.get();
+        while self.next_poll.get() == next {
+            self.step();
+        }
+    }
+
+    /// Lets time pass up to a moment before the driver's next poll.
+    pub fn pass_until(&self, moment: u64) {
+        while self.now() < moment {
+            let mut machine = self.machine();
+            machine.advance(moment);
+            let up = self.interrupts.get() && machine.core.irq();
+            drop(machine);
+            if up {
+                self.driver.on_interrupt();
+            }
         }
     }
 

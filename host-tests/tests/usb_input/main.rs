@@ -6,7 +6,7 @@
 //! | `hubs` | hubs, hubs behind hubs, splits, limits |
 //! | `plugging` | plugging in, pulling out in every stage, swapping, faults and what follows them |
 //! | `timing` | the waits, the time to the first report and from a report to the state |
-//! | `rogues` | devices that are wrong, 100,000 of them |
+//! | `rogues` | devices that are wrong, 10,000 of them |
 
 mod bench;
 mod devices;

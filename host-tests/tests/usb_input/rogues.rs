@@ -1,4 +1,5 @@
-//! Devices that are wrong, each in its own way.
+//! Devices that are wrong, each in its own way, on a controller with nothing behind it: what is wrong here is the
+//! stack's. More of them, on the strict model of the core, are in `usb_driver`.
 
 use std::time::Instant;
 
@@ -11,7 +12,7 @@ use usb_model::wire::Speed;
 use crate::bench::{Bench, place, shared};
 
 /// Enumerations of rogues in all.
-const ROGUES: u64 = 100_000;
+const ROGUES: u64 = 10_000;
 /// A device is done with, one way or the other, within three attempts of five seconds, their pauses and resets, and what
 /// reads reports gives up after 1.27 s; in between it may be attached three times.
 const LIMIT_US: u64 = 25_000_000;
@@ -54,7 +55,7 @@ fn settled(events: &[Event], here: Place) -> bool {
 }
 
 #[test]
-fn a_hundred_thousand_rogues_do_no_harm() {
+fn ten_thousand_rogues_do_no_harm() {
     let started = Instant::now();
     let threads = std::thread::available_parallelism().map_or(1, usize::from).clamp(1, 4) as u64;
     let parts: Vec<_> = (0..threads)
@@ -100,7 +101,7 @@ fn run(seeds: std::ops::Range<u64>) -> Outcome {
         bench.events.clear();
         bench.reports.clear();
         let began = bench.now.get();
-        ports.plug(1, rogue(seed), began);
+        ports.plug(1, shared(rogue(seed)), began);
         let done = bench.jump_until(LIMIT_US, |bench| settled(&bench.events, here));
         assert!(done, "rogue {seed} is neither attached nor given up: {:#?}", bench.events);
         outcome.longest_us = outcome.longest_us.max(bench.now.get() - began);

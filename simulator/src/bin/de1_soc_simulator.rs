@@ -13,11 +13,16 @@ use serde::Deserialize;
 use simulator::remote::Remote;
 use simulator::{Image, PowerOn};
 
+/// Where a mesh file is loaded: behind the program and the FPGA's image.
+const MESH_ADDRESS: u32 = 0x0A00_0000;
+
 /// What to run, and how.
 #[derive(Deserialize)]
 struct Job {
     /// The program: an ELF file, or a raw binary.
     image: PathBuf,
+    /// A mesh file that U-Boot loads and tells the program of.
+    mesh: Option<PathBuf>,
     /// Pixel units of the verilated design; without, the software model draws.
     rtl: Option<u32>,
     /// File for what the console's line carries.
@@ -41,6 +46,11 @@ fn run() -> Result<(), Box<dyn Error>> {
     let job: Job = serde_json::from_str(&job).map_err(|error| format!("`{job}` is no job: {error}"))?;
     let image = Image::read(&job.image).map_err(|error| format!("{}: {error}", job.image.display()))?;
     let mut board = PowerOn::new(image);
+    if let Some(path) = &job.mesh {
+        let bytes = std::fs::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let [address, length] = [MESH_ADDRESS, bytes.len() as u32].map(|number| format!("{number:#x}"));
+        board = board.loaded(MESH_ADDRESS, &bytes).arguments(&["mesh", &address, &length]);
+    }
     if let Some(units) = job.rtl {
         board = with_rtl(board, units)?;
     }

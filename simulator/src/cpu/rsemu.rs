@@ -85,6 +85,9 @@ impl Cpu for Interpreter {
         self.arm.set_cpsr(0x13 | psr::I | psr::F | psr::A);
         self.arm.set_reg(13, start.stack);
         // U-Boot's `go` calls entry(argc, argv); it would come back to here.
+        for (register, value) in (0..).zip(start.arguments) {
+            self.arm.set_reg(register, value);
+        }
         self.arm.set_reg(14, start.vectors);
         self.arm.set_pc(start.entry);
     }
@@ -127,6 +130,8 @@ impl Cpu for Interpreter {
     }
 
     fn disassemble(&self, address: u32) -> String {
-        self.arm.disassemble_virtual(address, 1, false).first().map(|line| line.to_string()).unwrap_or_default()
+        let listed = self.arm.disassemble_virtual(address, 1, false).first().map(|line| line.to_string());
+        // The library puts address and code before the instruction.
+        listed.and_then(|line| Some(line.split_once("  ")?.1.to_string())).unwrap_or_default()
     }
 }

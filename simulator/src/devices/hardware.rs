@@ -17,37 +17,12 @@ use super::scu::Scu;
 use super::system_manager::SystemManager;
 use super::uart::Uart;
 use super::usb::Usb;
-use super::{Answer, no_register};
+use super::{Answer, ResetCause, no_register};
 use crate::bus::Bus;
 use crate::fpga::Fpga;
 use crate::fpga::faulty::Faulty;
 use crate::time::{BRIDGE_READ, Clocks, REGISTER_READ, REGISTER_WRITE};
 use crate::violation::Access;
-
-/// What reset the processor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ResetCause {
-    /// Software, cold.
-    SoftwareCold,
-    /// Software, warm.
-    SoftwareWarm,
-    /// The core's own watchdog.
-    PrivateWatchdog,
-    /// A watchdog on the peripherals' bus.
-    L4Watchdog(usize),
-}
-
-impl ResetCause {
-    /// Returns the bit of the reset manager's STAT.
-    pub fn status_bit(self) -> u32 {
-        match self {
-            Self::SoftwareCold => 4,
-            Self::SoftwareWarm => 10,
-            Self::PrivateWatchdog => 12,
-            Self::L4Watchdog(index) => 14 + index as u32,
-        }
-    }
-}
 
 /// The levels of the board's pins at the three GPIO blocks: the HPS key is not pressed.
 const BOARD_PINS: [u32; 3] = [0, 1 << HPS_KEY, 0];
@@ -84,7 +59,8 @@ pub struct Hardware {
     pub board_io: BoardIo,
     /// The USB controller and what is plugged in.
     pub usb: Usb,
-    clocks: ClockManager,
+    /// The clock manager.
+    pub clocks: ClockManager,
     system: SystemManager,
     l3: L3,
     scu: Scu,
@@ -133,7 +109,7 @@ impl Hardware {
         self.fpga_manager.restart();
         self.gic = Gic::default();
         self.clocks = ClockManager::default();
-        self.system = SystemManager::as_uboot_leaves_it();
+        self.system = self.system.after(cause);
         self.l3 = L3::default();
         self.scu = Scu::default();
         self.pl310 = Pl310::as_uboot_leaves_it();

@@ -44,7 +44,7 @@ impl ResetManager {
 
     /// Returns the manager as U-Boot leaves it after a reset of its own; the status keeps what was not cleared.
     pub fn after(&self, cause: ResetCause) -> Self {
-        let kept = if cause == ResetCause::SoftwareCold { 0 } else { self.status };
+        let kept = if cause.is_cold() { 0 } else { self.status };
         Self { status: kept | 1 << cause.status_bit(), ..Self::as_uboot_leaves_it() }
     }
 

@@ -1,6 +1,10 @@
 //! The system manager, as far as a program that U-Boot starts has to do with it.
 
 use super::{Answer, no_register, read_only};
+use crate::devices::ResetCause;
+
+/// Hand-off words that U-Boot writes at each start; three more are the program's.
+const UBOOT_WORDS: usize = 5;
 
 /// The manager.
 pub struct SystemManager {
@@ -32,6 +36,16 @@ impl SystemManager {
             warm_ram: [0; 5],
             usb_l3: 0,
         }
+    }
+
+    /// Returns the manager as U-Boot leaves it after a reset: the hand-off words that it does not
+    /// write survive any but a cold one.
+    pub fn after(&self, cause: ResetCause) -> Self {
+        let mut fresh = Self::as_uboot_leaves_it();
+        if !cause.is_cold() {
+            fresh.handoff[UBOOT_WORDS..].copy_from_slice(&self.handoff[UBOOT_WORDS..]);
+        }
+        fresh
     }
 
     /// Returns whether signals may pass between processor and FPGA.

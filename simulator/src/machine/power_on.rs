@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Machine;
+use super::uboot::Go;
 use crate::bus::Bus;
 use crate::cpu::Cpu;
 use crate::cpu::rsemu::Interpreter;
@@ -11,7 +12,7 @@ use crate::devices::fpga_manager::FpgaManager;
 use crate::fpga::Fpga;
 use crate::fpga::faulty::Faulty;
 use crate::fpga::model::Model;
-use crate::image::Image;
+use crate::image::{Image, LOAD_ADDRESS};
 
 /// The board before power-on.
 pub struct PowerOn {
@@ -20,13 +21,44 @@ pub struct PowerOn {
     configured: bool,
     msel: u32,
     bitstream: Option<Vec<u8>>,
+    go: Go,
+    memory: Vec<(u32, Vec<u8>)>,
 }
 
 impl PowerOn {
     /// Returns a board with a program on its card, `raster-model` as its FPGA's design, configured
     /// when the program starts, and the MSEL switch at 0b01010: the processor may configure.
     pub fn new(card: Image) -> Self {
-        Self { card, design: Box::new(Model::default()), configured: true, msel: 0b01010, bitstream: None }
+        Self {
+            card,
+            design: Box::new(Model::default()),
+            configured: true,
+            msel: 0b01010,
+            bitstream: None,
+            go: Go { words: vec![format!("{LOAD_ADDRESS:#010x}")], caches_off: false },
+            memory: Vec::new(),
+        }
+    }
+
+    /// Adds words behind U-Boot's `go ADDRESS`.
+    #[must_use]
+    pub fn arguments(mut self, words: &[&str]) -> Self {
+        self.go.words.extend(words.iter().map(ToString::to_string));
+        self
+    }
+
+    /// Has U-Boot clean its caches and turn them off before it starts the program, as the card's script does.
+    #[must_use]
+    pub fn caches_off(mut self) -> Self {
+        self.go.caches_off = true;
+        self
+    }
+
+    /// Has U-Boot `load` bytes to an address before it starts the program.
+    #[must_use]
+    pub fn loaded(mut self, address: u32, bytes: &[u8]) -> Self {
+        self.memory.push((address, bytes.to_vec()));
+        self
     }
 
     /// Puts another design into the FPGA.
@@ -62,7 +94,9 @@ impl PowerOn {
         let hardware = Hardware::as_uboot_leaves_it(Faulty::new(self.design), manager);
         let bus = Arc::new(Bus::new(hardware));
         let cpu = Interpreter::new(Arc::clone(&bus));
-        let mut machine = Machine { bus, cpu, card: self.card, console: Vec::new() };
+        let mut card = self.card;
+        card.parts.extend(self.memory);
+        let mut machine = Machine { bus, cpu, card, go: self.go, console: Vec::new() };
         machine.load();
         machine
     }

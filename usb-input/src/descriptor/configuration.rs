@@ -9,6 +9,8 @@ use crate::setup::descriptor;
 const HID_INTERFACES_MAXIMUM: usize = 4;
 /// The largest interrupt packet that is read: all that full speed has, and more than boards' buffers like beyond.
 pub(crate) const PACKET_MAXIMUM: u16 = 64;
+/// The largest interrupt packet at low speed (USB 2.0 §5.7.3); some devices say more.
+const LOW_SPEED_PACKET_MAXIMUM: u16 = 8;
 const CLASS_HID: u8 = 3;
 const CLASS_HUB: u8 = 9;
 
@@ -73,7 +75,7 @@ impl Configuration {
     }
 
     /// Reads it and what belongs to it, as far as it makes sense; `None` if it is no configuration.
-    pub(crate) fn parse(bytes: &[u8]) -> Option<Self> {
+    pub(crate) fn parse(bytes: &[u8], speed: Speed) -> Option<Self> {
         let total = Self::total_length(bytes)?;
         let mut configuration = Self { value: bytes[5], ..Self::default() };
         let mut open: Option<Open> = None;
@@ -95,7 +97,7 @@ impl Configuration {
                 [7..=255, descriptor::ENDPOINT, address, attributes, low, high, interval, ..]
                     if attributes & 3 == 3 =>
                 {
-                    let endpoint = Endpoint::new(address, u16::from_le_bytes([low, high]), interval);
+                    let endpoint = Endpoint::new(address, u16::from_le_bytes([low, high]), interval, speed);
                     if let (Some(open), Some(endpoint)) = (&mut open, endpoint) {
                         let side = if address & 0x80 == 0 { &mut open.output } else { &mut open.input };
                         *side = side.or(Some(endpoint));
@@ -126,9 +128,10 @@ impl Configuration {
 }
 
 impl Endpoint {
-    fn new(address: u8, packet: u16, interval: u8) -> Option<Self> {
+    fn new(address: u8, packet: u16, interval: u8, speed: Speed) -> Option<Self> {
         // Bits 11 and 12 are the number of packets in a microframe (§9.6.6).
         let packet = packet & 0x7FF;
+        let packet = if speed == Speed::Low { packet.min(LOW_SPEED_PACKET_MAXIMUM) } else { packet };
         let number = address & 0x0F;
         (number != 0 && (1..=PACKET_MAXIMUM).contains(&packet)).then_some(Self { number, packet, interval })
     }

@@ -21,12 +21,18 @@ fn changed(changes: &[(usize, u8)]) -> Vec<u8> {
 
 #[test]
 fn a_pad_is_read() {
-    let pad = Configuration::parse(&PAD).unwrap();
+    let pad = Configuration::parse(&PAD, Speed::Full).unwrap();
     assert_eq!((pad.value, pad.class, pad.hub), (1, 3, None));
     let [hid] = pad.hid[..] else { panic!("{pad:?}") };
     assert_eq!((hid.number, hid.boot_keyboard, hid.report_descriptor), (0, false, 148));
     assert_eq!(hid.input, Endpoint { number: 1, packet: 64, interval: 1 });
     assert_eq!(hid.output, Some(Endpoint { number: 2, packet: 64, interval: 1 }));
+}
+
+#[test]
+fn packets_are_no_longer_than_low_speed_has() {
+    let hid = Configuration::parse(&changed(&[(38, 13)]), Speed::Low).unwrap().hid;
+    assert_eq!((hid[0].input.packet, hid[0].output.unwrap().packet), (8, 8));
 }
 
 #[test]
@@ -37,7 +43,7 @@ fn a_keyboard_with_a_mouse_is_two_interfaces() {
         &[9, 4, 1, 0, 1, 3, 1, 2, 0, 9, 0x21, 0x10, 1, 0, 1, 0x22, 46, 0, 7, 5, 0x82, 3, 4, 0, 10],
     ]
     .concat();
-    let both = Configuration::parse(&bytes).unwrap();
+    let both = Configuration::parse(&bytes, Speed::Full).unwrap();
     let found: Vec<_> = both.hid.iter().map(|hid| (hid.number, hid.boot_keyboard, hid.report_descriptor)).collect();
     assert_eq!(found, [(0, true, 65), (1, false, 46)]);
 }
@@ -51,7 +57,7 @@ fn a_hub_is_its_endpoint_whatever_its_protocol() {
         &[9, 4, 0, 1, 1, 9, 0, 2, 0, 7, 5, 0x82, 3, 2, 0, 13],
     ]
     .concat();
-    let hub = Configuration::parse(&bytes).unwrap().hub.unwrap();
+    let hub = Configuration::parse(&bytes, Speed::Full).unwrap().hub.unwrap();
     assert_eq!(hub, Endpoint { number: 1, packet: 1, interval: 12 });
     assert_eq!(hub.interval_ms(Speed::High), 255);
     assert_eq!(hub.interval_ms(Speed::Full), 12);
@@ -67,7 +73,7 @@ fn intervals_are_milliseconds_at_every_speed() {
 
 #[test]
 fn what_makes_no_sense_is_left_out() {
-    let hids = |bytes: &[u8]| Configuration::parse(bytes).map(|found| found.hid.len());
+    let hids = |bytes: &[u8]| Configuration::parse(bytes, Speed::Full).map(|found| found.hid.len());
     assert_eq!(hids(&changed(&[(36, 0x80)])), Some(0), "endpoint 0");
     assert_eq!(hids(&changed(&[(38, 0)])), Some(0), "packets of no bytes");
     assert_eq!(hids(&changed(&[(38, 0), (39, 4)])), Some(0), "packets of 1024 bytes");
@@ -93,5 +99,5 @@ fn what_makes_no_sense_is_left_out() {
 fn more_interfaces_than_there_is_room_for_do_no_harm() {
     let interfaces = PAD[9..].repeat(7);
     let bytes = [&changed(&[(2, 233)])[..9], &interfaces].concat();
-    assert_eq!(Configuration::parse(&bytes).unwrap().hid.len(), 4);
+    assert_eq!(Configuration::parse(&bytes, Speed::Full).unwrap().hid.len(), 4);
 }

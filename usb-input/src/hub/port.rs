@@ -24,11 +24,13 @@ pub(super) struct Port {
 /// What is done with a port.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Task {
-    /// It is asked what has changed.
-    Look,
+    /// It is asked what has changed, beside what was taken note of already.
+    Look {
+        noted: u16,
+    },
     /// Its changes are taken note of, those that are left.
     Clear {
-        port: Status,
+        noted: u16,
         left: u16,
     },
     /// Power that it lost comes back.
@@ -53,7 +55,7 @@ pub(super) enum Task {
 }
 
 impl Task {
-    pub(super) const LOOK: Self = Self::Look;
+    pub(super) const LOOK: Self = Self::Look { noted: 0 };
 }
 
 impl Port {
@@ -96,15 +98,14 @@ impl Port {
     /// Says what is next of a task, and the task from there on; `None` at its end.
     pub(super) fn next(&mut self, link: &mut Link, memory: &Memory, task: Task) -> Option<(Next, Task)> {
         let setup = match task {
-            Task::Look | Task::Ask { .. } => {
+            // What changed again before the note was taken is seen now: the note has cleared it.
+            Task::Clear { left: 0, noted } => return Some((Next::Again, Task::Look { noted })),
+            Task::Look { .. } | Task::Ask { .. } => {
                 let next = link.read(memory, Step::Port, Setup::hub_status(self.number), Status::LENGTH);
                 return Some((next, task));
             }
             Task::Wait { end } => {
                 return Some((link.wait(memory, Wait::PORT_RESET_STEP), Task::Ask { end }));
-            }
-            Task::Clear { left: 0, port } => {
-                return self.looked(link, memory, port).map(|task| (Next::Again, task));
             }
             Task::Clear { left, .. } => {
                 let change = left.trailing_zeros() as u8;
@@ -128,11 +129,14 @@ impl Port {
     ) -> Result<Option<Task>, Fault> {
         let status = || Status::parse(data).ok_or(link.nonsense());
         Ok(match task {
-            Task::Look => {
+            Task::Look { noted } => {
                 let port = status()?;
-                Some(Task::Clear { port, left: port.changes & bit::CHANGES })
+                match port.changes & bit::CHANGES {
+                    0 => self.looked(link, memory, Status { changes: noted, ..port }),
+                    left => Some(Task::Clear { noted: noted | left, left }),
+                }
             }
-            Task::Clear { port, left } => Some(Task::Clear { port, left: left & (left - 1) }),
+            Task::Clear { noted, left } => Some(Task::Clear { noted, left: left & (left - 1) }),
             Task::Reset => Some(Task::Wait { end: memory.after(Wait::PORT_RESET_TIMEOUT) }),
             Task::Ask { end } => {
                 let port = status()?;
@@ -171,7 +175,7 @@ impl Port {
         None
     }
 
-    /// Acts on what the port said, all of which was taken note of.
+    /// Acts on what the port says now, and on what has changed, all of which was taken note of.
     fn looked(&mut self, link: &Link, memory: &Memory, port: Status) -> Option<Task> {
         let connected = port.is(bit::CONNECTION);
         let unnoticed = self.device.is_none() && self.due.is_none() && self.attempts == 0;

@@ -63,7 +63,6 @@ impl Core {
             PCGCTL => self.registers.power = value,
             _ => {}
         }
-        self.watch_line();
     }
 
     fn reset_control(&self) -> u32 {
@@ -108,6 +107,7 @@ impl Core {
         self.phy_at_reset = Some(phy & GUSBCFG_PHY);
         self.flushed = (false, false);
         self.disconnected = false;
+        self.unsettled = true;
         for channel in &mut self.channels {
             *channel = Channel { lent: channel.lent, ..Channel::default() };
         }
@@ -142,6 +142,17 @@ impl Core {
             | set(self.disconnected, GINT_DISCONNECT)
     }
 
+    /// Any of [`interrupts`](Self::interrupts) that GINTMSK lets through. Asked at every step, so it looks no further
+    /// than it has to.
+    pub(super) fn unmasked_interrupt(&self) -> bool {
+        let wanted = |bit: u32| self.registers.mask & bit != 0;
+        wanted(GINT_HOST) && self.is_host()
+            || wanted(GINT_PORT) && self.port.changes() != 0
+            || wanted(GINT_DISCONNECT) && self.disconnected
+            || wanted(GINT_SOF) && self.frame_index(self.now) > self.frame_seen
+            || wanted(GINT_CHANNEL) && self.channel_interrupts() & self.registers.channel_mask != 0
+    }
+
     fn acknowledge(&mut self, value: u32) {
         if value & GINT_SOF != 0 {
             self.frame_seen = self.frame_index(self.now);
@@ -153,11 +164,8 @@ impl Core {
 
     /// HAINT.
     fn channel_interrupts(&self) -> u32 {
-        self.channels
-            .iter()
-            .enumerate()
-            .map(|(at, channel)| u32::from(channel.interrupts & channel.mask != 0) << at)
-            .sum()
+        let bit = |(at, channel): (usize, &Channel)| u32::from(channel.interrupts & channel.mask != 0) << at;
+        self.channels.iter().enumerate().map(bit).fold(0, |all, bit| all | bit)
     }
 
     fn frame_register(&self) -> u32 {

@@ -7,8 +7,8 @@ use crate::memory::DmaBus;
 use crate::violation::Rule;
 use crate::wire::{Answer, Handshake, Speed, Toggle};
 
-/// A packet that long spills over the end of any microframe: the core disables the port (USB 2.0 §11.8.2, its `Port error`).
-const SPILL_BYTES: usize = 1_024;
+/// A packet that long spills over the end of any microframe: the port is disabled (USB 2.0 §11.8.1).
+pub(crate) const SPILL_BYTES: usize = 1_024;
 
 /// Microseconds that a transaction with `bytes` bytes of data takes, handshake and pauses in.
 pub(crate) fn duration(speed: Speed, bytes: usize) -> u64 {
@@ -89,6 +89,7 @@ impl Core {
         let channel = &mut self.channels[index];
         channel.interrupts |= reasons | HCINT_HALTED;
         channel.run = None;
+        self.unsettled = true;
     }
 
     /// Reads what is to be sent; `None` after a bus error, which leaves the channel running for ever.

@@ -89,6 +89,7 @@ impl Core {
         let (at, frame) = self.first_moment(&program);
         let at = at.filter(|_| self.port.enabled() && !self.defects.never_runs);
         self.starts += 1;
+        self.unsettled = true;
         self.channels[index].run = Some(Run { at, frame, order: self.starts, halting: false });
     }
 

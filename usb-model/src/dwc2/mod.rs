@@ -20,7 +20,7 @@ mod splits;
 mod start_checks;
 
 pub use build::{Build, Defects};
-pub(crate) use bus::duration as slow_duration;
+pub(crate) use bus::{SPILL_BYTES, duration as slow_duration};
 
 use crate::memory::DmaBus;
 use crate::violation::{Log, Rule};
@@ -81,6 +81,8 @@ pub struct Core {
     port: Port,
     device: Option<Plug>,
     channels: Vec<Channel>,
+    /// Channels have started or ended since the memory was told.
+    unsettled: bool,
     starts: u64,
     /// The wire is free from then on.
     wire_free: u64,
@@ -106,6 +108,7 @@ impl Core {
             port: Port::default(),
             device: None,
             channels: vec![Channel::default(); build.channels()],
+            unsettled: false,
             starts: 0,
             wire_free: 0,
             snoop: Snoop::default(),
@@ -128,20 +131,19 @@ impl Core {
 
     /// The interrupt line.
     pub fn irq(&self) -> bool {
-        self.registers.master & registers::GAHBCFG_GLOBAL != 0 && self.interrupts() & self.registers.mask != 0
+        self.registers.master & registers::GAHBCFG_GLOBAL != 0 && self.unmasked_interrupt()
     }
 
     /// Lets time pass until `until`, with all that happens in it. Stops early, and returns false, when the interrupt
     /// line rises.
     pub fn advance(&mut self, until: u64, memory: &mut dyn DmaBus) -> bool {
-        let was_up = self.irq();
+        let was_up = self.watch_line();
         self.settle(memory);
         while let Some(event) = self.next_event().filter(|event| *event <= until) {
             self.now = self.now.max(event);
             self.happen(memory);
             self.settle(memory);
-            self.watch_line();
-            if !was_up && self.irq() {
+            if self.watch_line() && !was_up {
                 return false;
             }
         }
@@ -153,6 +155,9 @@ impl Core {
     /// Tells the memory which buffers the core owns now. [`Core::advance`] does so too; whoever wants ownership to begin with
     /// the very write that starts a channel calls this after each write.
     pub fn settle(&mut self, memory: &mut dyn DmaBus) {
+        if !std::mem::take(&mut self.unsettled) {
+            return;
+        }
         for (index, channel) in self.channels.iter_mut().enumerate() {
             match (channel.run.is_some(), channel.lent) {
                 (true, false) => {
@@ -208,11 +213,11 @@ impl Core {
         self.log.add(self.now, rule, detail);
     }
 
-    /// An interrupt that nobody answers.
-    fn watch_line(&mut self) {
+    /// Says whether the interrupt line is up, and writes down an interrupt that nobody answers.
+    fn watch_line(&mut self) -> bool {
         if !self.irq() {
             self.timers.line_since = None;
-            return;
+            return false;
         }
         let (since, told) = self.timers.line_since.unwrap_or((self.now, false));
         let late = self.now - since > ANSWER_US;
@@ -223,6 +228,7 @@ impl Core {
             );
         }
         self.timers.line_since = Some((since, told || late));
+        true
     }
 }
 

@@ -241,7 +241,13 @@ impl Core {
 
     /// (Micro)frames since the port was enabled.
     pub(super) fn frame_index(&self, at: u64) -> u64 {
-        if self.port.enabled { at.saturating_sub(self.port.epoch) / self.frame_us() } else { 0 }
+        let since = at.saturating_sub(self.port.epoch);
+        // Divisors that the compiler knows: this is asked at every step.
+        match (self.port.enabled, self.port.speed) {
+            (false, _) => 0,
+            (true, Some(Speed::High)) => since / 125,
+            (true, _) => since / 1_000,
+        }
     }
 
     pub(super) fn frame_start(&self, index: u64) -> u64 {

@@ -138,6 +138,7 @@ impl Core {
             Completed::Data(toggle, bytes) => {
                 self.split_data(index, program, toggle == program.toggle(), &bytes, memory)
             }
+            Completed::Part(bytes) if bytes.len() > program.packet_bytes => self.finish(index, HCINT_BABBLE),
             Completed::Part(bytes) => {
                 self.snoop.part(program);
                 if self.store(index, &bytes, memory) {

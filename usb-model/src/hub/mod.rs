@@ -9,6 +9,7 @@ mod port;
 mod requests;
 mod translator;
 
+use crate::dwc2::SPILL_BYTES;
 use crate::split::{Completed, Start, Started, Token, Translator};
 use crate::violation::Rule;
 use crate::wire::{Answer, Device, Handshake, Speed, Target, Toggle};
@@ -16,12 +17,14 @@ use endpoint0::Endpoint0;
 use port::Port;
 use translator::Engine;
 
-/// Ports of every hub here.
-pub const PORTS: usize = 4;
+/// Ports of a hub, unless it is made with others.
+const PORTS: usize = 4;
+/// Ports of a hub at most: as many as a byte of its status change endpoint has bits for.
+const PORTS_MAXIMUM: usize = 7;
 /// TRSTRCY, USB 2.0 §7.1.7.5.
 const RECOVERY_US: u64 = 10_000;
 
-/// A hub with [`PORTS`] ports, numbered from 1.
+/// A hub; its ports are numbered from 1.
 pub struct Hub {
     fastest: Speed,
     speed: Speed,
@@ -38,8 +41,17 @@ pub struct Hub {
 }
 
 impl Hub {
-    /// A hub that is at most this fast: high or full speed.
+    /// A hub with four ports that is at most this fast: high or full speed.
     pub fn new(fastest: Speed) -> Self {
+        Self::with_ports(fastest, PORTS)
+    }
+
+    /// The same with so many ports.
+    ///
+    /// # Panics
+    /// When these are more than seven.
+    pub fn with_ports(fastest: Speed, ports: usize) -> Self {
+        assert!(ports <= PORTS_MAXIMUM, "{ports} ports are more than {PORTS_MAXIMUM}");
         Self {
             fastest,
             speed: Speed::Full,
@@ -47,7 +59,7 @@ impl Hub {
             configured: false,
             control: Endpoint0::new(64),
             status_toggle: Toggle::Data0,
-            ports: (0..PORTS).map(|_| Port::default()).collect(),
+            ports: (0..ports).map(|_| Port::default()).collect(),
             engine: Engine::default(),
             low_next: false,
             answered: None,
@@ -55,7 +67,7 @@ impl Hub {
         }
     }
 
-    /// Plugs a device into a port, 1…[`PORTS`]; one that was there is gone.
+    /// Plugs a device into a port; one that was there is gone.
     pub fn plug(&mut self, port: usize, device: Box<dyn Device + Send>) {
         self.ports[port - 1].plug(device);
     }
@@ -109,10 +121,11 @@ impl Hub {
         target.address == self.address
     }
 
-    /// A slower device in the default state cannot hear what is said at high speed.
+    /// A slower device in the default state cannot hear what is said at high speed. Address 0 is for who was reset last.
     fn check_unsplit(&mut self, target: Target) {
-        let slower = |port: &Port| port.speed().is_some_and(|speed| speed != Speed::High);
-        if self.speed == Speed::High && target.address == 0 && self.address != 0 && self.ports.iter().any(slower) {
+        let last = self.ports.iter().max_by_key(|port| port.reset_end).and_then(Port::speed);
+        let slower = last.is_some_and(|speed| speed != Speed::High);
+        if self.speed == Speed::High && target.address == 0 && self.address != 0 && slower {
             self.complaints.push((Rule::SplitMissing, "address 0 at high speed".into()));
         }
     }
@@ -121,10 +134,13 @@ impl Hub {
         let Some(port) = self.ports.get(usize::from(token.port).wrapping_sub(1)) else {
             return self.complaints.push((Rule::SplitHub, format!("no port {}", token.port)));
         };
-        if port.speed().is_some_and(|speed| speed != token.speed) {
+        if !port.was_ever_enabled() {
+            self.complaints.push((Rule::SplitHub, format!("nobody was ever enabled at port {}", token.port)));
+        }
+        if port.enabled_speed().is_some_and(|speed| speed != token.speed) {
             self.complaints.push((Rule::SplitHub, format!("port {} is not {:?} speed", token.port, token.speed)));
         }
-        if port.speed().is_some() && now < port.reset_end + RECOVERY_US {
+        if port.enabled_speed().is_some() && now < port.reset_end + RECOVERY_US {
             self.complaints.push((Rule::ResetRecovery, format!("hub port {}", token.port)));
         }
     }
@@ -190,8 +206,15 @@ impl Device for Hub {
             },
             (true, _) => Answer::Silent,
             (false, _) => {
-                let (answer, port) = self.ask(now, Answer::Silent, |device| device.data_in(now, target));
+                let (mut answer, port) = self.ask(now, Answer::Silent, |device| device.data_in(now, target));
                 self.answered = port;
+                if let (Answer::Data(_, bytes), Some(port)) = (&mut answer, port)
+                    && bytes.len() > SPILL_BYTES
+                {
+                    // What came before the port was cut off is no packet.
+                    bytes.truncate(SPILL_BYTES);
+                    self.ports[port].cut_off();
+                }
                 answer
             }
         }

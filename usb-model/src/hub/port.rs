@@ -11,6 +11,7 @@ const LOW_SPEED: u16 = 1 << 9;
 const HIGH_SPEED: u16 = 1 << 10;
 /// Bits of wPortChange.
 pub(super) const CHANGED_CONNECTION: u16 = 1;
+const CHANGED_ENABLE: u16 = 1 << 1;
 const CHANGED_RESET: u16 = 1 << 4;
 
 /// From power, or from the plug, to a connection that the hub sees.
@@ -27,7 +28,9 @@ pub(super) struct Port {
     connect_at: Option<u64>,
     /// A plug or a power-on that no call has dated yet.
     undated: bool,
-    pub connected_since: u64,
+    connected_since: u64,
+    /// The host has asked since then.
+    connection_known: bool,
     enabled: bool,
     reset_until: Option<u64>,
     pub reset_end: u64,
@@ -45,6 +48,7 @@ impl Port {
             self.connect_at = None;
             self.connected = true;
             self.connected_since = now;
+            self.connection_known = false;
             self.changes |= CHANGED_CONNECTION;
             self.speed = self.device.as_ref().map(|device| device.speed(fastest));
         }
@@ -101,14 +105,26 @@ impl Port {
         self.enabled = false;
     }
 
+    /// The device spoke beyond the end of its (micro)frame, and is cut off (USB 2.0 §11.8.1).
+    pub fn cut_off(&mut self) {
+        self.enabled = false;
+        self.changes |= CHANGED_ENABLE;
+    }
+
     /// The hub itself was reset: no power, no changes.
     pub fn reset_all(&mut self) {
         let device = self.device.take();
         *self = Self { device, ..Self::default() };
     }
 
-    pub fn is_connected(&self) -> bool {
-        self.connected
+    /// How long a connection that the host knows of has been there.
+    pub fn known_for(&self, now: u64) -> Option<u64> {
+        (self.connected && self.connection_known).then(|| now.saturating_sub(self.connected_since))
+    }
+
+    /// The host asked.
+    pub fn asked(&mut self) {
+        self.connection_known = self.connected;
     }
 
     /// The device, when it may be talked to at this speed.
@@ -121,6 +137,16 @@ impl Port {
 
     pub fn speed(&self) -> Option<Speed> {
         self.speed.filter(|_| self.connected)
+    }
+
+    /// The speed of a device that was reset. What is said before that is for who was there before.
+    pub fn enabled_speed(&self) -> Option<Speed> {
+        self.speed.filter(|_| self.enabled)
+    }
+
+    /// A device was reset here since the hub was.
+    pub fn was_ever_enabled(&self) -> bool {
+        self.reset_end > 0
     }
 
     /// wPortStatus and wPortChange.

@@ -21,7 +21,7 @@ fn fields(packet: [u8; 8]) -> (u8, u8, u16, u16) {
 
 impl Hub {
     /// The data for a request, empty where it has none; `None` refuses it.
-    pub(super) fn answer(&self, packet: [u8; 8]) -> Option<Vec<u8>> {
+    pub(super) fn answer(&mut self, packet: [u8; 8]) -> Option<Vec<u8>> {
         let (kind, request, value, index) = fields(packet);
         let port = usize::from(index).wrapping_sub(1);
         match (kind, request) {
@@ -38,7 +38,10 @@ impl Hub {
             (0x01, 11) => (value == 0).then(Vec::new),
             (0x02, 1) => Some(Vec::new()),
             (0xa0, 0) => Some(vec![0; 4]),
-            (0xa3, 0) => self.ports.get(port).map(|port| port.status().to_vec()),
+            (0xa3, 0) => self.ports.get_mut(port).map(|port| {
+                port.asked();
+                port.status().to_vec()
+            }),
             (0x23, 1) => {
                 let known = matches!(value, PORT_ENABLE | PORT_POWER | CHANGE_FIRST..=CHANGE_LAST);
                 (known && port < self.ports.len()).then(Vec::new)
@@ -76,8 +79,7 @@ impl Hub {
             (false, PORT_ENABLE) => port.disable(),
             (false, CHANGE_FIRST..=CHANGE_LAST) => port.changes &= !(1 << (feature - CHANGE_FIRST)),
             (true, PORT_RESET) => {
-                let stable = now.saturating_sub(port.connected_since);
-                if port.is_connected() && stable < DEBOUNCE_US {
+                if let Some(stable) = port.known_for(now).filter(|stable| *stable < DEBOUNCE_US) {
                     self.complaints.push((Rule::Debounce, format!("hub port {} after {stable} us", number + 1)));
                 }
                 port.start_reset(now);

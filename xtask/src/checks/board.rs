@@ -15,7 +15,9 @@ use crate::demo;
 use crate::firmware_build::build_firmware;
 use crate::golden::{self, Golden};
 use crate::machine::{Link, with_host};
-use crate::paths::TemporaryFolder;
+use crate::paths::{TemporaryFolder, workspace_root};
+use crate::picture::read_png;
+use crate::recorded_game::{self, Record};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
 use crate::session;
 
@@ -27,8 +29,7 @@ const FAILED: i32 = 101;
 /// The demonstration session gives the same frames in QEMU, in this process, and in the golden file.
 pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
     let parts = session::demo()?;
-    let golden = Golden::read()?
-        .with_context(|| format!("{} is missing: write it with `cargo xtask generate --golden`", golden::PATH))?;
+    let golden = golden(golden::DEMO)?;
     let remedy = "if the change is wanted, look at the pictures of `cargo xtask demo`, then run \
                   `cargo xtask generate --golden` and say why in the commit";
     let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
@@ -47,11 +48,44 @@ pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
 
 /// The same on the Cortex-A7, with another display, timer and interrupt controller.
 pub(super) fn demonstration_on_raspi2b(state: &mut State) -> anyhow::Result<()> {
-    let golden = Golden::read()?.with_context(|| format!("{} is missing", golden::PATH))?;
+    let golden = golden(golden::DEMO)?;
     let mut machine = state.bootable(Board::Raspi2b)?.start(&state.folder("demo-raspi2b"))?;
     let played = demo::play(&mut machine, &session::demo()?, &state.progress)?;
     machine.quit()?;
     golden.check(&Golden::from(&played.report)).context("on QEMU's raspi2b, but not on vexpress-a9")
+}
+
+/// The pictures of the five systems are the same on QEMU's Cortex-A9, in this process and in the golden file.
+pub(super) fn seeds(state: &mut State) -> anyhow::Result<()> {
+    let (golden, parts) = (golden(golden::SEEDS)?, session::seeds()?);
+    let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
+    golden.check(&Golden::from(&here.report)).context("on this computer")?;
+    for (path, picture) in golden::pictures(&here) {
+        let committed = read_png(&workspace_root().join(&path))?;
+        ensure!(committed == *picture, "{path} shows something else: write it with `cargo xtask generate --golden`");
+    }
+    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("seeds"))?;
+    let there = demo::play(&mut machine, &parts, &state.progress)?;
+    machine.quit()?;
+    golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")
+}
+
+/// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's Cortex-A9, in this
+/// process and in the golden file.
+pub(super) fn game(state: &mut State) -> anyhow::Result<()> {
+    let (golden, parts) = (Record::read()?, session::game()?);
+    let here = Record::of(&parts)?;
+    golden.check(&here).context("on this computer")?;
+    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("game"))?;
+    let there = recorded_game::play(&mut machine, &parts)?;
+    machine.quit()?;
+    there.check_against(&golden).context("on QEMU's Cortex-A9, but not on this computer")?;
+    println!("score {} in the whole round, {} after {} frames in QEMU", here.score(), there.score(), there.frames);
+    Ok(())
+}
+
+fn golden(file: &str) -> anyhow::Result<Golden> {
+    Golden::read(file)?.with_context(|| format!("{file} is missing: write it with `cargo xtask generate --golden`"))
 }
 
 /// Every byte of a report is lost once; the firmware drops what it spoils and goes on.

@@ -1,6 +1,7 @@
 //! Steps that are cargo's: every crate but the one that wants Verilator.
 
 use std::env;
+use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, bail};
@@ -46,7 +47,13 @@ pub(super) fn fpga_tests() -> anyhow::Result<()> {
 
 /// Runs cargo in the workspace, its words on this terminal.
 pub(super) fn run(arguments: &[&str], remedy: &str) -> anyhow::Result<()> {
-    let status = cargo(arguments).status().context("cannot start cargo: is Rust installed?")?;
+    run_with(arguments, &[], remedy)
+}
+
+/// The same with variables in the environment.
+pub(super) fn run_with(arguments: &[&str], variables: &[(&str, &Path)], remedy: &str) -> anyhow::Result<()> {
+    let status =
+        cargo(arguments).envs(variables.iter().copied()).status().context("cannot start cargo: is Rust installed?")?;
     if !status.success() {
         bail!("`cargo {}` failed ({status}): {remedy}", arguments.join(" "));
     }

@@ -1,15 +1,14 @@
 //! Steps that prove theorems about the FPGA's design, and see proofs of broken designs fail.
 
 use std::fs;
-use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
 
 use super::State;
 use crate::commands::prove::prove_all;
-use crate::paths::{TemporaryFolder, workspace_root};
 use crate::prove::{PROOFS, Proof, Tools};
 use crate::setup::{ensure_bitwuzla, ensure_yosys};
+use crate::yosys::folder_with_design;
 
 /// A change to a file that the proof with this number in [`PROOFS`] must notice.
 struct Mistake {
@@ -21,7 +20,31 @@ struct Mistake {
     noticed: &'static str,
 }
 
-const MISTAKES: [Mistake; 5] = [
+const MISTAKES: [Mistake; 8] = [
+    // The last word is kept back.
+    Mistake {
+        proof: 0,
+        file: "rtl/command_fifo.sv",
+        right: "valid_d = read_d != write_q;",
+        wrong: "valid_d = read_d != write_q && read_d + 1'b1 != write_q;",
+        noticed: "does not follow",
+    },
+    // It goes left and right for ever.
+    Mistake {
+        proof: 1,
+        file: "rtl/row_walker.sv",
+        right: "else if (!neighbour_left_out && place_q",
+        wrong: "else if (place_q",
+        noticed: "does not follow",
+    },
+    // A row is left a tile early.
+    Mistake {
+        proof: 1,
+        file: "rtl/span_scanner.sv",
+        right: "row_done = place_q.column == constants_q.last_column;",
+        wrong: "row_done = place_q.column >= constants_q.last_column - 1'b1;",
+        noticed: "does not follow",
+    },
     Mistake {
         proof: 0,
         file: "rtl/command_fifo.sv",
@@ -78,30 +101,15 @@ impl Mistake {
     fn is_noticed(&self, tools: &Tools, number: usize) -> anyhow::Result<()> {
         let Self { proof, file, right, wrong, noticed } = self;
         let proof: &Proof = PROOFS.get(*proof).context("there is no such proof")?;
-        let copy = TemporaryFolder::new()?;
-        copy_folder(&workspace_root().join("rtl"), &copy.path().join("rtl"))?;
-        let path = copy.path().join(file);
+        let folder = folder_with_design(&format!("prove/mistake-{number}"))?;
+        let path = folder.join(file);
         let text = fs::read_to_string(&path).with_context(|| format!("cannot read {file}"))?;
         ensure!(text.matches(right).count() == 1, "{file} has not just one `{right}`: choose another mistake");
         fs::write(&path, text.replace(right, wrong))?;
-        match proof.prove(tools, copy.path(), &format!("mistake-{number}")) {
+        match proof.prove(tools, &folder) {
             Ok(_) => bail!("{} was proven with `{wrong}` in {file}", proof.name()),
             Err(error) if error.to_string().contains(noticed) => Ok(()),
             Err(error) => Err(error.context(format!("`{wrong}` in {file} was to be noticed otherwise ({noticed})"))),
         }
     }
-}
-
-fn copy_folder(from: &Path, to: &Path) -> anyhow::Result<()> {
-    fs::create_dir_all(to).with_context(|| format!("cannot make {}", to.display()))?;
-    for entry in fs::read_dir(from).with_context(|| format!("cannot read {}", from.display()))? {
-        let entry = entry?;
-        let target = to.join(entry.file_name());
-        if entry.file_type()?.is_dir() {
-            copy_folder(&entry.path(), &target)?;
-        } else {
-            fs::copy(entry.path(), &target).with_context(|| format!("cannot write {}", target.display()))?;
-        }
-    }
-    Ok(())
 }

@@ -11,7 +11,7 @@ pub enum Board {
     VexpressA9,
     /// Raspberry Pi 2 with the DE1-SoC's USB controller, as QEMU models it
     Raspi2b,
-    /// Terasic DE1-SoC: builds, but nothing here can run it yet
+    /// Terasic DE1-SoC, in its simulator, which runs the image that is flashed
     De1Soc,
 }
 
@@ -19,7 +19,7 @@ impl Board {
     /// All boards.
     pub const ALL: [Self; 3] = [Self::VexpressA9, Self::Raspi2b, Self::De1Soc];
 
-    /// Returns whether QEMU has the board.
+    /// Returns whether QEMU has the board; the others have a simulator of their own.
     pub const fn runs_in_qemu(self) -> bool {
         matches!(self, Self::VexpressA9 | Self::Raspi2b)
     }

@@ -69,6 +69,7 @@ fn the_other_commands_parse() {
         "demo --board raspi2b",
         "run --board raspi2b --pad s",
         "run --board raspi2b --usb-host 054c:0268",
+        "run --board de1-soc --rtl",
         "pad s --session f",
         "image",
         "image --rbf f --uboot u --output d",
@@ -77,6 +78,11 @@ fn the_other_commands_parse() {
         "test --only usb",
         "replay w -o o.png --depth d",
         "decode w",
+        "run --model a.stl --board raspi2b",
+        "run --model a.mesh --headless --frames 3 --output d --style wireframe",
+        "mesh a.stl -o a.mesh --flat --scale-to-fit",
+        "mesh a.stl -o a.mesh --smooth --two-sided --clockwise",
+        "render a.glb -o a.png --style hidden-lines",
         "bench --json",
         "generate --check",
         "generate --golden",
@@ -84,4 +90,5 @@ fn the_other_commands_parse() {
         assert!(parse(line).is_ok(), "{line}");
     }
     assert!(parse("demo --board c64").is_err());
+    assert!(parse("mesh a.stl -o a.mesh --smooth --flat").is_err());
 }

@@ -1,6 +1,10 @@
 //! Values of flags that are more than a word or a number.
 
+use firmware::scene::Scene;
+use firmware::style::Style;
+
 use crate::qemu::UsbIds;
+use crate::session;
 use crate::verilated::UNITS;
 
 /// Angles about the x, y and z axis, in degrees.
@@ -42,6 +46,16 @@ pub(super) fn parse_rotation(text: &str) -> Result<Rotation, String> {
         };
     }
     Ok(Rotation { degrees })
+}
+
+/// Reads a scene's name.
+pub(super) fn parse_scene(text: &str) -> Result<Scene, String> {
+    session::scene_named(text).map_err(|error| error.to_string())
+}
+
+/// Reads a style's name.
+pub(super) fn parse_style(text: &str) -> Result<Style, String> {
+    session::style_named(text).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]

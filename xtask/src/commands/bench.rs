@@ -1,18 +1,26 @@
-//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, and the FPGA's clocks.
+//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, the FPGA's clocks, and the size of the USB code.
 
 use std::env;
+use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, ensure};
 
 use crate::area;
 use crate::boot::Bootable;
+use crate::card::program::Program;
 use crate::cli::{BenchArguments, Board};
+use crate::code_size;
+use crate::fill;
+use crate::firmware_build::build_firmware;
 use crate::frame_model;
 use crate::measure::{self, Measurement};
 use crate::paths::{target_folder, workspace_root};
 use crate::progress::Progress;
 use crate::session;
+use crate::setup::ensure_firmware_toolchain;
+use crate::simulated::{Build, Design, Simulator};
 use crate::table::{Column, Table};
 use crate::verilated::Verilated;
 
@@ -39,14 +47,34 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let verilated = Verilated::prepare(false, &progress)?;
     let step = progress.step("counting the FPGA's clocks");
     measurements.extend(verilated.bench()?);
+    let fills = fill::measure(&verilated)?;
+    measurements.extend(fill::measurements(&fills));
     step.done();
+    let toolchain = ensure_firmware_toolchain(&progress)?;
+    let elf = build_firmware(Board::De1Soc, &[], &toolchain, &progress)?;
+    measurements.push(measure::image(&Program::read(&elf)?));
+    for design in [Design::Model, Design::Rtl] {
+        let simulator = Simulator::prepare(design, false, Build::Optimised, &progress)?;
+        let step = progress.step("timing the DE1-SoC's simulator");
+        let mut board = simulator.start(&elf, &target_folder().join("bench/console.txt"))?;
+        measurements.extend(measure::on_simulator(&mut board, design)?);
+        step.done();
+    }
     let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
+    measurements.push(code_size::measurement(&progress)?);
     measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);
     } else {
         print!("{}", table(&measurements));
+        println!("\nwhat more pixel units bring, on the last frame of each picture of the five systems:\n");
+        print!("{}", fill::table(&fills));
+    }
+    if let Some(path) = &arguments.plot {
+        fs::write(path, fill::plot(&fills).svg())
+            .with_context(|| format!("cannot write {}: check its folder", path.display()))?;
+        progress.step(format!("writing {}", path.display())).done();
     }
     Ok(())
 }
@@ -62,6 +90,7 @@ fn run_optimised(arguments: &BenchArguments) -> anyhow::Result<()> {
     let program = target_folder().join("measure/xtask");
     let mut optimised = Command::new(&program);
     optimised.arg("bench").args(arguments.json.then_some("--json"));
+    optimised.args(arguments.plot.iter().flat_map(|path| [Path::new("--plot"), path]));
     let status = optimised.status().with_context(|| format!("cannot start {}", program.display()))?;
     ensure!(status.success(), "the optimised build ended with {status}");
     Ok(())

@@ -1,4 +1,5 @@
-//! `cargo xtask demo`: boots the firmware in QEMU and saves the frames of a recorded session.
+//! `cargo xtask demo`: boots the firmware in QEMU, or in the DE1-SoC's simulator, and saves the frames of a recorded
+//! session.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 
-use crate::boot::{Bootable, check_runs};
+use crate::boot;
 use crate::cli::{Board, DemoArguments};
 use crate::demo::{self, Played};
 use crate::golden::{self, Golden};
@@ -14,11 +15,14 @@ use crate::paths::{for_display, target_folder};
 use crate::picture::{Picture, write_animated_png, write_png};
 use crate::progress::Progress;
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, Report, verdict};
-use crate::session;
+use crate::session::{self, ScenePart};
+use crate::simulated::Design;
 use crate::stream::to_bytes;
 
 /// How long the animation shows a frame.
 const FRAME_TIME: Duration = Duration::from_millis(50);
+/// Frames of the recorded game that are shown: all pictures are held until the animation is written.
+const GAME_FRAMES: usize = 600;
 
 /// Runs the demonstration.
 ///
@@ -28,17 +32,13 @@ const FRAME_TIME: Duration = Duration::from_millis(50);
 /// screen shows something else than it drew, or the results cannot be written.
 pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     let started = Instant::now();
-    check_runs(arguments.board)?;
     let progress = Progress::new();
-    let parts = session::demo()?;
-    let bootable = Bootable::prepare(arguments.board, &progress)?;
+    let parts = parts(arguments)?;
     let folder = target_folder().join("demo");
     empty(&folder)?;
-    let step = progress.step(format!("booting {} in QEMU", arguments.board));
-    let mut machine = bootable.start(&folder)?;
-    step.done();
-    let played = demo::play(&mut machine, &parts, &progress)?;
-    machine.quit()?;
+    let mut machine = boot::start(arguments.board, Design::Model, None, &folder, &progress)?;
+    let played = demo::play(machine.as_mut(), &parts, &progress)?;
+    machine.end()?;
     let report = save(played, &folder, &progress)?;
     if let Some(path) = &arguments.dump {
         let step = progress.step(format!("writing the packet words to {}", path.display()));
@@ -66,6 +66,20 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Returns what is played.
+fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
+    match arguments.scene {
+        Some(scene) => {
+            let mut game = session::game()?;
+            game.iter_mut().for_each(|part| part.frames.truncate(GAME_FRAMES));
+            let all = [session::seeds()?, session::demo()?, game].concat();
+            Ok(all.into_iter().filter(|part| part.scene == scene).collect())
+        }
+        None if arguments.seeds => session::seeds(),
+        None => session::demo(),
+    }
+}
+
 /// Writes pictures and report.
 fn save(played: Played, folder: &Path, progress: &Progress) -> anyhow::Result<Report> {
     let step = progress.step(format!("writing {} pictures", played.pictures.len()));
@@ -81,12 +95,21 @@ fn save(played: Played, folder: &Path, progress: &Progress) -> anyhow::Result<Re
     Ok(played.report)
 }
 
-/// Compares a run with the golden one.
+/// Compares a run with the golden ones.
 fn golden_line(report: &Report) -> anyhow::Result<String> {
-    let Some(golden) = Golden::read()? else {
-        return Ok(format!("nothing to compare the frames with: there is no {}", golden::PATH));
-    };
-    Ok(match golden.check(&Golden::from(report)) {
+    let mut golden = Golden { scenes: Vec::new() };
+    for file in [golden::DEMO, golden::SEEDS] {
+        let Some(more) = Golden::read(file)? else {
+            return Ok(format!("nothing to compare the frames with: there is no {file}"));
+        };
+        golden.scenes.extend(more.scenes);
+    }
+    let run = Golden::from(report);
+    let golden = golden.played_in(&run);
+    if golden.scenes.is_empty() {
+        return Ok("no golden run has these scenes frame by frame".to_string());
+    }
+    Ok(match golden.check(&run) {
         Ok(()) => "every frame is equal to the golden run".to_string(),
         Err(difference) => format!("WARNING: the frames differ from the golden run: {difference}"),
     })

@@ -1,12 +1,15 @@
 //! `cargo xtask generate`: writes the files that come from one source and are committed.
 
 use crate::cli::GenerateArguments;
-use crate::demo;
+use crate::demo::{self, Played};
 use crate::generated;
 use crate::golden::{self, Golden};
 use crate::machine::with_host;
+use crate::paths::workspace_root;
+use crate::picture::write_png;
 use crate::progress::Progress;
-use crate::session;
+use crate::recorded_game::{self, Record};
+use crate::session::{self, ScenePart};
 
 /// Writes the generated files, or with `--check` only says which are stale.
 ///
@@ -30,26 +33,37 @@ pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
         }
     }
     anyhow::ensure!(stale.is_empty(), "{} stale: run `cargo xtask generate` and commit the result", stale.join(", "));
-    if arguments.golden { write_golden() } else { Ok(()) }
+    if arguments.golden {
+        write_golden(golden::DEMO, &session::demo()?)?;
+        let played = write_golden(golden::SEEDS, &session::seeds()?)?;
+        for (path, picture) in golden::pictures(&played) {
+            write_png(&workspace_root().join(path), picture)?;
+        }
+        let record = Record::of(&session::game()?)?;
+        record.write()?;
+        println!("written {}: score {}", recorded_game::GOLDEN, record.score());
+    }
+    Ok(())
 }
 
-/// Writes the checksums that the demonstration's frames must have from now on.
-fn write_golden() -> anyhow::Result<()> {
-    let parts = session::demo()?;
-    let played = with_host(|machine| demo::play(machine, &parts, &Progress::new()))?;
+/// Plays a session and writes the checksums that a session's frames must have from now on.
+fn write_golden(path: &str, parts: &[ScenePart]) -> anyhow::Result<Played> {
+    let played = with_host(|machine| demo::play(machine, parts, &Progress::new()))?;
     let new = Golden::from(&played.report);
-    match Golden::read() {
-        Ok(Some(old)) if old == new => println!("fresh   {}", golden::PATH),
+    match Golden::read(path) {
+        Ok(Some(old)) if old == new => println!("fresh   {path}"),
         old => {
-            new.write()?;
-            println!("written {}", golden::PATH);
+            new.write(path)?;
+            println!("written {path}");
             if let Ok(Some(old)) = old
                 && let Err(difference) = old.check(&new)
             {
                 println!("        first difference: {difference}");
             }
-            println!("look at the pictures of `cargo xtask demo` before you commit it, and say in the commit why");
+            println!(
+                "look at the pictures of `cargo xtask demo` (`--seeds`) before you commit it, and say in the commit why"
+            );
         }
     }
-    Ok(())
+    Ok(played)
 }

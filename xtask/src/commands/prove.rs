@@ -1,15 +1,17 @@
 //! `cargo xtask prove`: theorems about the FPGA's design.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
 use std::thread;
 
 use anyhow::Context;
 
 use crate::cli::ProveArguments;
-use crate::paths::workspace_root;
 use crate::progress::Progress;
 use crate::prove::{PROOFS, Proof, Proven, Tools};
 use crate::setup::{ensure_bitwuzla, ensure_yosys};
 use crate::table::{Column, Table};
+use crate::yosys::folder_with_design;
 
 /// Proves all, or those for one number of pixel units.
 ///
@@ -21,7 +23,7 @@ pub fn run(arguments: &ProveArguments) -> anyhow::Result<()> {
     let tools = Tools { yosys: ensure_yosys(&progress)?, python: ensure_bitwuzla(&progress)? };
     let is_wanted = |proof: &Proof| arguments.units.is_none_or(|units| proof.units.is_none_or(|of| of == units));
     let proofs: Vec<Proof> = PROOFS.into_iter().filter(is_wanted).collect();
-    let step = progress.step(format!("proving {} theorems", proofs.len()));
+    let step = progress.step(format!("proving {} theorems, some minutes", proofs.len()));
     let proven = prove_all(&proofs, &tools)?;
     step.done();
     let mut table = Table::new([
@@ -40,21 +42,35 @@ pub fn run(arguments: &ProveArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Proves each on a thread of its own.
+/// Proves them, as many at a time as there are processors. What is left of a failure stays in `target/prove`.
 ///
 /// # Errors
-/// The first that fails, by its name.
+/// The first that fails, by its name; those under way are waited for.
 pub fn prove_all(proofs: &[Proof], tools: &Tools) -> anyhow::Result<Vec<Proven>> {
-    let root = workspace_root();
+    let folder = folder_with_design("prove")?;
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = mpsc::channel();
+    let workers = thread::available_parallelism().map_or(1, usize::from).min(proofs.len());
     thread::scope(|scope| {
-        let running: Vec<_> =
-            proofs.iter().map(|proof| (proof, scope.spawn(|| proof.prove(tools, &root, "design")))).collect();
-        running
-            .into_iter()
-            .map(|(proof, thread)| {
-                let outcome = thread.join().ok().context("a thread that proved has panicked")?;
-                outcome.with_context(|| format!("not proven: {} ({})", proof.claim, proof.name()))
-            })
-            .collect()
+        for _ in 0..workers {
+            let (next, folder, sender) = (&next, &folder, sender.clone());
+            scope.spawn(move || {
+                while let Some(proof) = proofs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let outcome = proof.prove(tools, folder);
+                    if outcome.is_err() {
+                        next.store(proofs.len(), Ordering::Relaxed);
+                    }
+                    let _ = sender.send((proof, outcome));
+                }
+            });
+        }
+        drop(sender);
+        let mut proven = Vec::new();
+        for (proof, outcome) in receiver {
+            let outcome = outcome.with_context(|| format!("not proven: {} ({})", proof.claim, proof.name()))?;
+            proven.push((proof.units, outcome));
+        }
+        proven.sort_by_key(|(units, _)| *units);
+        Ok(proven.into_iter().map(|(_, outcome)| outcome).collect())
     })
 }

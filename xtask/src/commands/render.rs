@@ -1,18 +1,18 @@
-//! `cargo xtask render`: draws an OBJ model through the geometry and the raster model, on the host.
+//! `cargo xtask render`: draws a model through the geometry and the raster model, on the host.
 
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, anyhow};
+use firmware::style::Style;
 use fpga_regs::screen::{HEIGHT, WIDTH};
 use geometry::{Culling, Matrix};
 
 use crate::cli::RenderArguments;
 use crate::model::Model;
-use crate::obj::read_obj;
 use crate::picture::{write_depth_pgm, write_png};
-use crate::render::camera::{Fit, to_matrix};
+use crate::render::camera::{Fit, of_window, to_matrix};
 use crate::render::{SetUp, View, mvp, render};
 use crate::stream::to_bytes;
 use crate::table::thousands;
@@ -25,19 +25,20 @@ use crate::table::thousands;
 pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let started = Instant::now();
     // Its text names the cause already, which the chain of errors would say again.
-    let obj = read_obj(&arguments.model).map_err(|error| anyhow!("{error}"))?;
-    let model = Model::new(&obj).with_context(|| format!("cannot use {}", arguments.model.display()))?;
+    let source = models::read(&arguments.model).map_err(|error| anyhow!("{error}"))?;
+    source.notes.iter().for_each(|note| println!("note: {note}"));
+    let model = Model::new(&source).with_context(|| format!("cannot use {}", arguments.model.display()))?;
     let culling = if arguments.two_sided { Culling::None } else { Culling::BackFaces };
-    let view = match &arguments.mvp {
-        Some(path) => {
-            View { model_to_clip: to_matrix(&mvp::read(path)?, model.scale_log2), model: Matrix::IDENTITY, culling }
-        }
-        None => {
-            let fit = Fit::new(&obj.positions, arguments.rotate.map_or([0.0; 3], |rotation| rotation.degrees));
-            let model_to_clip = to_matrix(&fit.model_to_clip(), model.scale_log2);
-            View { model_to_clip, model: fit.rotation_matrix(), culling }
+    let (model_to_clip, turned) = match (&arguments.mvp, &source.view, arguments.rotate) {
+        (Some(path), ..) => (mvp::read(path)?, Matrix::IDENTITY),
+        (None, Some(view), None) => (of_window(view), Matrix::IDENTITY),
+        (None, _, rotate) => {
+            let fit = Fit::new(&source.positions, rotate.map_or([0.0; 3], |rotation| rotation.degrees));
+            (fit.model_to_clip(), fit.rotation_matrix())
         }
     };
+    let model_to_clip = to_matrix(&model_to_clip, model.scale_log2);
+    let view = View { model_to_clip, model: turned, culling, style: arguments.style };
     let rendered = render(&model, &view)?;
     write_png(&arguments.output, &rendered.picture)?;
     if let Some(path) = &arguments.dump {
@@ -52,8 +53,9 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let statistics = rendered.statistics;
     let number = |count: u32| thousands(count.into());
     println!(
-        "{} vertices; {} triangles submitted, {} drawn, {} clipped; {} words; {:.2} s",
+        "{} vertices; {} {} submitted, {} drawn, {} clipped; {} words; {:.2} s",
         number(statistics.vertices),
+        if model.is_wire() || arguments.style == Style::Wire { "lines" } else { "triangles" },
         number(statistics.submitted),
         number(statistics.drawn),
         number(statistics.clipped),

@@ -1,20 +1,24 @@
 //! `cargo xtask run`: the firmware live, in a window or headless.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, ensure};
+use anyhow::{Context, anyhow, bail, ensure};
+use firmware::scene::Scene;
+use models::Kind;
+use models::compile::{Options, compile};
 
-use crate::boot::{Bootable, check_runs, start_with_log};
+use crate::boot::{self, Bootable, start_with_log};
 use crate::cli::{Board, RunArguments};
-use crate::machine::Link;
+use crate::machine::{Emulated, Link};
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
 use crate::qemu::{QemuOptions, UsbDevice};
 use crate::session::{self, ScenePart};
 use crate::setup::ensure_qemu_window;
+use crate::simulated::Design;
 
 /// Longest time that a window stays open: as good as for ever.
 const WINDOW_LIMIT: Duration = Duration::from_secs(365 * 24 * 3_600);
@@ -26,23 +30,35 @@ const WINDOW_LIMIT: Duration = Duration::from_secs(365 * 24 * 3_600);
 /// When the board cannot run here, something is missing that cannot be installed, the firmware
 /// does not build or run, or a frame cannot be written.
 pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
-    check_runs(arguments.board)?;
+    let design = design(arguments)?;
     match (arguments.headless, arguments.frames, &arguments.output) {
-        (true, Some(frames), Some(output)) => headless(arguments, frames, output),
-        _ => in_a_window(arguments),
+        (true, Some(frames), Some(output)) => headless(arguments, design, frames, output),
+        _ if arguments.board.runs_in_qemu() => in_a_window(arguments),
+        _ => in_the_simulator(arguments, design),
     }
 }
 
+/// Returns what shall be in the FPGA; a board in QEMU has none.
+fn design(arguments: &RunArguments) -> anyhow::Result<Design> {
+    let board = arguments.board;
+    if !arguments.rtl {
+        return Ok(Design::Model);
+    }
+    ensure!(!board.runs_in_qemu(), "{board} has no FPGA: use `--board {}` with --rtl", Board::De1Soc);
+    Ok(Design::Rtl)
+}
+
 /// Plays the recorded session, from its beginning and again if need be, and saves each frame.
-fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Result<()> {
+fn headless(arguments: &RunArguments, design: Design, count: u32, output: &Path) -> anyhow::Result<()> {
     let progress = Progress::new();
-    let parts = session::demo()?;
+    let parts = parts(arguments)?;
     fs::create_dir_all(output).with_context(|| format!("cannot make the folder {}", output.display()))?;
-    let bootable = Bootable::prepare(arguments.board, &progress)?;
-    let mut machine = bootable.start(&target_folder().join("run"))?;
+    let folder = target_folder().join("run");
+    let mesh = mesh_file(arguments, &folder)?;
+    let mut machine = boot::start(arguments.board, design, mesh, &folder, &progress)?;
     let step = progress.step(format!("drawing {count} frames"));
     let mut drawn = 0;
-    let mut link = Link::new(&mut machine);
+    let mut link = Link::new(machine.as_mut());
     link.identify()?;
     for part in first_frames(&parts, count as usize) {
         session::play(&mut link, &part, |frame| {
@@ -53,9 +69,39 @@ fn headless(arguments: &RunArguments, count: u32, output: &Path) -> anyhow::Resu
         })?;
     }
     step.done();
-    machine.quit()?;
+    machine.end()?;
     println!("wrote {drawn} frames to {}", for_display(output).display());
     Ok(())
+}
+
+/// Returns what is played: the demonstration's session or, of a scene or in a style that is named, the pictures of the
+/// five systems; a scene that has none there holds still.
+fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
+    if arguments.scene.is_none() && arguments.style.is_none() && arguments.model.is_none() {
+        return session::demo();
+    }
+    let first = if arguments.model.is_some() { Scene::Model } else { Scene::ALL[0] };
+    let scene = arguments.scene.unwrap_or(first);
+    let known = [session::seeds()?, session::demo()?, session::game()?].concat();
+    let named = known.into_iter().find(|part| part.scene == scene);
+    let part = named.unwrap_or(ScenePart { scene, style: None, frames: vec![None] });
+    Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
+}
+
+/// Returns the model that is named as a `.mesh` file, in `folder` unless it is one already.
+fn mesh_file(arguments: &RunArguments, folder: &Path) -> anyhow::Result<Option<PathBuf>> {
+    let Some(path) = &arguments.model else { return Ok(None) };
+    // Its text names the cause already, which the chain of errors would say again.
+    let model = models::read(path).map_err(|error| anyhow!("{error}"))?;
+    if Kind::of_name(path) == Some(Kind::Mesh) {
+        return Ok(Some(path.clone()));
+    }
+    model.notes.iter().for_each(|note| println!("note: {note}"));
+    let compiled = compile(&model, &Options::default()).with_context(|| format!("cannot use {}", path.display()))?;
+    let file = folder.join("model.mesh");
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    fs::write(&file, compiled.bytes).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(Some(file))
 }
 
 /// Returns a session that is repeated and cut to `count` frames.
@@ -68,7 +114,7 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
         }
         let frames = part.frames[..part.frames.len().min(left)].to_vec();
         left -= frames.len();
-        taken.push(ScenePart { scene: part.scene, frames });
+        taken.push(ScenePart { frames, ..part.clone() });
     }
     taken
 }
@@ -76,10 +122,15 @@ fn first_frames(parts: &[ScenePart], count: usize) -> Vec<ScenePart> {
 /// Returns what is plugged into the board: a keyboard, and behind a hub with it what the flags name.
 fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
     let named = arguments.pad.is_some() || arguments.usb_host.is_some();
-    if arguments.board != Board::Raspi2b {
-        let board = arguments.board;
-        ensure!(!named, "{board} has no USB: use `--board {}` with --pad and --usb-host", Board::Raspi2b);
-        return Ok(Vec::new());
+    let board = arguments.board;
+    match board {
+        Board::Raspi2b => {}
+        _ if !named => return Ok(Vec::new()),
+        Board::De1Soc => bail!(
+            "{board}'s simulator has a keyboard of its own: use --pad and --usb-host with `--board {}`",
+            Board::Raspi2b
+        ),
+        Board::VexpressA9 => bail!("{board} has no USB: use `--board {}` with --pad and --usb-host", Board::Raspi2b),
     }
     if !named {
         return Ok(vec![UsbDevice::keyboard("1")]);
@@ -95,6 +146,26 @@ fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
     Ok(devices)
 }
 
+/// Runs the DE1-SoC's image in its simulator's window.
+fn in_the_simulator(arguments: &RunArguments, design: Design) -> anyhow::Result<()> {
+    plugged_in(arguments)?;
+    ensure!(
+        arguments.scene.is_none() && arguments.style.is_none(),
+        "--scene and --style do not reach the simulator's window: press Enter and Tab there, or add --headless"
+    );
+    let progress = Progress::new();
+    let folder = target_folder().join("run");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let mesh = mesh_file(arguments, &folder)?;
+    let (simulator, elf) = boot::simulator(arguments.board, design, true, &progress)?;
+    let simulator = simulator.with_mesh(mesh);
+    println!(
+        "click into the window, then use the keyboard: it is the board's USB keyboard; F1 to F4 are its keys KEY0 to"
+    );
+    println!("KEY3, F5 the HPS key, F6 to F12 its switches SW0 to SW6; close the window to end");
+    simulator.live(&elf, &folder.join("console.txt"))
+}
+
 fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let progress = Progress::new();
     let (qemu, display) = ensure_qemu_window(&progress)?;
@@ -104,14 +175,17 @@ fn in_a_window(arguments: &RunArguments) -> anyhow::Result<()> {
     let mut options = QemuOptions::new(qemu, bootable.board, &bootable.elf);
     options.display = display;
     options.usb = plugged_in(arguments)?;
+    options.mesh = mesh_file(arguments, &folder)?;
     options.console_file = Some(folder.join("console.txt"));
     options.console_on_stdout = true;
     let (mut qemu, log) = start_with_log(&options, &folder)?;
     qemu.resume()?;
+    let mut machine = Emulated::new(qemu, log)?;
+    if arguments.scene.is_some() || arguments.style.is_some() {
+        Link::new(&mut machine).show(arguments.scene, arguments.style)?;
+    }
     println!("click into the window, then use the keyboard; close the window to end");
-    let status = qemu.wait_for_exit(WINDOW_LIMIT)?;
-    drop(qemu);
-    log.map(crate::log_decoder::LogDecoder::finish);
+    let status = machine.wait_for_exit(WINDOW_LIMIT)?;
     ensure!(status.success(), "the firmware ended with {status}; its last words stand above");
     Ok(())
 }
@@ -121,7 +195,6 @@ mod tests {
     use super::*;
     use crate::cli::{Cli, Task};
     use clap::Parser;
-    use firmware::scene::Scene;
 
     /// Returns what is plugged in, and the message when that is refused.
     fn plugged(line: &str) -> Result<usize, String> {
@@ -143,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_session_is_repeated_and_cut() {
-        let part = |scene, count| ScenePart { scene, frames: vec![None; count] };
+        let part = |scene, count| ScenePart { scene, style: None, frames: vec![None; count] };
         let parts = [part(Scene::Plate, 3), part(Scene::Torus, 0), part(Scene::Tunnel, 2)];
         let lengths = |count| {
             let taken = first_frames(&parts, count);

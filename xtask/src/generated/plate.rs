@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 
 use crate::model::{face_normal, position_bits};
-use crate::obj::read_obj;
 use crate::paths::workspace_root;
 
 /// Its three blues, by face number: 0–39, 40–78, the rest.
@@ -20,7 +19,7 @@ fn colour(face: usize) -> [u8; 3] {
 /// # Errors
 /// When `assets/plate.obj` cannot be read.
 pub fn text() -> anyhow::Result<String> {
-    let model = read_obj(&workspace_root().join("assets/plate.obj"))?;
+    let model = models::obj::read_obj(&workspace_root().join("assets/plate.obj"))?;
     let mut text = String::from(
         "//! The plate: positions, faces, normals and colours.\n//!\n\
          //! Generated from `assets/plate.obj` by `cargo xtask generate`: change it there.\n\n\

@@ -70,7 +70,7 @@ pub fn text() -> String {
             touch(frame, &mut report);
             Some(report.to_bytes())
         });
-        ScenePart { scene, frames: frames.collect() }
+        ScenePart { scene, style: None, frames: frames.collect() }
     };
     let plate = part(Scene::Plate, PLATE_FRAMES, PLATE, &|frame, report| {
         if FREEZE.contains(&frame) {

@@ -1,5 +1,6 @@
 //! The firmware in QEMU as a machine.
 
+use std::process::ExitStatus;
 use std::time::Duration;
 
 use super::Machine;
@@ -32,6 +33,17 @@ impl Emulated {
         &mut self.qemu
     }
 
+    /// Waits until the machine ends by itself and its log is written, and returns how it ended.
+    ///
+    /// # Errors
+    /// When it does not end in time.
+    pub fn wait_for_exit(mut self, patience: Duration) -> anyhow::Result<ExitStatus> {
+        let status = self.qemu.wait_for_exit(patience)?;
+        drop(self.qemu);
+        self.log.map(LogDecoder::finish);
+        Ok(status)
+    }
+
     /// Ends the machine and waits until its log is written.
     ///
     /// # Errors
@@ -57,5 +69,9 @@ impl Machine for Emulated {
     fn screen(&mut self) -> anyhow::Result<(u32, Picture)> {
         let picture = self.qemu.screen()?;
         Ok((raster_model::picture_checksum(&buffer_of_screen(&picture)?), picture))
+    }
+
+    fn end(self: Box<Self>) -> anyhow::Result<()> {
+        self.quit()
     }
 }

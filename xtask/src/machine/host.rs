@@ -18,6 +18,7 @@ struct HostBoard<'a, 'memory> {
     incoming: VecDeque<u8>,
     outgoing: VecDeque<u8>,
     console: String,
+    mesh: Option<&'static [u8]>,
 }
 
 impl<'a, 'memory> Board for HostBoard<'a, 'memory> {
@@ -54,6 +55,10 @@ impl<'a, 'memory> Board for HostBoard<'a, 'memory> {
 
     fn picture_checksum(&mut self, model: &mut Self::Port) -> Option<u32> {
         Some(model.checksum())
+    }
+
+    fn mesh_file(&mut self) -> Option<&'static [u8]> {
+        self.mesh.take()
     }
 
     fn pace(&mut self) {}
@@ -96,7 +101,18 @@ impl Machine for Host<'_, '_, '_> {
 /// # Errors
 /// When the application does not start, or `work`'s.
 pub fn with_host<R>(work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>) -> anyhow::Result<R> {
-    with_model(|device| start(SharedModel::new(device), work))
+    with_model(|device| start(SharedModel::new(device), None, work))
+}
+
+/// Does the same with a mesh file in memory, which stays there until this program ends.
+///
+/// # Errors
+/// As [`with_host`].
+pub fn with_host_and_mesh<R>(
+    mesh: Vec<u8>,
+    work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>,
+) -> anyhow::Result<R> {
+    with_model(|device| start(SharedModel::new(device), Some(mesh.leak()), work))
 }
 
 /// Does the same, and returns the packet words as well that `work` had drawn.
@@ -108,17 +124,22 @@ pub fn with_recording_host<R>(
 ) -> anyhow::Result<(R, Vec<u32>)> {
     with_model(|device| {
         let model = SharedModel::recording(device);
-        let result = start(model.clone(), work)?;
+        let result = start(model.clone(), None, work)?;
         Ok((result, model.take_words()))
     })
 }
 
-fn start<R>(model: SharedModel<'_, '_>, work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>) -> anyhow::Result<R> {
+fn start<R>(
+    model: SharedModel<'_, '_>,
+    mesh: Option<&'static [u8]>,
+    work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>,
+) -> anyhow::Result<R> {
     let board = HostBoard {
         of_model: PhantomData,
         incoming: VecDeque::new(),
         outgoing: VecDeque::new(),
         console: String::new(),
+        mesh,
     };
     let renderer = Renderer::new(model.clone(), NoWait, Timeouts::default())?;
     let mut memory = Box::<Memory>::default();

@@ -3,6 +3,8 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use firmware::{raspi2b, vexpress_a9};
+
 use super::usb_device::UsbDevice;
 use crate::cli::Board;
 
@@ -40,6 +42,8 @@ pub struct QemuOptions {
     pub elf: PathBuf,
     /// The board that it is for.
     pub board: Board,
+    /// A mesh file that lies in memory from the start.
+    pub mesh: Option<PathBuf>,
     /// What is plugged in from the start.
     pub usb: Vec<UsbDevice>,
     /// Where the screen is shown.
@@ -65,6 +69,7 @@ impl QemuOptions {
             program: program.into(),
             elf: elf.into(),
             board,
+            mesh: None,
             usb: Vec::new(),
             display: Display::None,
             icount_shift: None,
@@ -100,6 +105,10 @@ impl QemuOptions {
             push("-serial");
             push(&format!("chardev:{name}"));
         }
+        if let Some(mesh) = &self.mesh {
+            push("-device");
+            push(&format!("loader,file={},addr={:#x},force-raw=on", comma_doubled(mesh), wiring.mesh_address));
+        }
         for device in &self.usb {
             device.arguments().iter().for_each(|word| push(word));
         }
@@ -127,16 +136,24 @@ pub(super) struct Wiring {
     memory_mebibytes: Option<u32>,
     /// What each serial port carries, the machine's first one first: `console`, `link`, `log`.
     pub(super) serial_ports: &'static [&'static str],
+    /// Where the firmware looks for a mesh file.
+    mesh_address: usize,
 }
 
 impl Wiring {
     pub(super) const fn of(board: Board) -> Self {
         match board {
-            Board::VexpressA9 | Board::De1Soc => {
-                Self { memory_mebibytes: Some(256), serial_ports: &["console", "link", "log"] }
-            }
+            Board::VexpressA9 | Board::De1Soc => Self {
+                memory_mebibytes: Some(256),
+                serial_ports: &["console", "link", "log"],
+                mesh_address: vexpress_a9::memory_map::MESH_FILE.start,
+            },
             // The machine has 1 GiB, and no third port.
-            Board::Raspi2b => Self { memory_mebibytes: None, serial_ports: &["link", "console"] },
+            Board::Raspi2b => Self {
+                memory_mebibytes: None,
+                serial_ports: &["link", "console"],
+                mesh_address: raspi2b::memory_map::MESH_FILE.start,
+            },
         }
     }
 
@@ -166,6 +183,9 @@ mod tests {
         assert!(line.contains("-display gtk ") && line.contains("-icount shift=5 "), "{line}");
         assert!(line.contains("-chardev socket,id=log,server=off,path=/t,,1/log "), "{line}");
         assert!(line.contains("-semihosting-config enable=on") && line.ends_with("-kernel a b.elf"), "{line}");
+        options.mesh = Some("/m,1.mesh".into());
+        let words = options.arguments(Path::new("/t"));
+        assert!(words.iter().any(|word| word == "loader,file=/m,,1.mesh,addr=0x69000000,force-raw=on"), "{words:?}");
         options.semihosting = false;
         options.icount_shift = None;
         let line = format!("{:?}", options.arguments(Path::new("/t")));

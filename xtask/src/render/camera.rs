@@ -69,6 +69,26 @@ impl Fit {
     }
 }
 
+/// Returns the way to clip space of a view through a window in a plane across z: what is between the plane and
+/// the eye is cut off, the window fills the picture.
+pub fn of_window(view: &models::View) -> Matrix64 {
+    /// No position of 16 bits is as far away from an eye of 16 bits.
+    const FAR: f64 = 64.0;
+    let models::View { eye, plane, window: [low, high] } = *view;
+    let near = eye[2] - plane;
+    // w is the distance from the eye along z. On the plane, x is eye − near/w · (eye − x), y likewise.
+    let w = [0.0, 0.0, -1.0, eye[2]];
+    let across = |axis: usize| {
+        let mut projected = [0.0, 0.0, -eye[axis], eye[axis] * plane];
+        projected[axis] = near;
+        let (sum, width) = (low[axis] + high[axis], high[axis] - low[axis]);
+        [0, 1, 2, 3].map(|column| (2.0 * projected[column] - sum * w[column]) / width)
+    };
+    let (scale, offset) = ((FAR + near) / (FAR - near), -2.0 * FAR * near / (FAR - near));
+    let depth = [0.0, 0.0, scale * w[2], scale * w[3] + offset];
+    [across(0), across(1), depth, w]
+}
+
 fn identity() -> Matrix64 {
     let mut matrix = [[0.0; 4]; 4];
     for (index, row) in matrix.iter_mut().enumerate() {
@@ -168,6 +188,24 @@ mod tests {
                 }
                 assert!(farthest > 0.4, "{offset} {size}: it fills {farthest}");
             }
+        }
+    }
+
+    #[test]
+    fn a_window_shows_what_the_seed_s_formula_puts_into_it() {
+        let view = models::View { eye: [0.5, 1.0, 4.0], plane: 1.0, window: [[-2.0, -1.0], [3.0, 2.5]] };
+        let matrix = of_window(&view);
+        for position in [[0.0, 0.0, 0.0], [1.5, -2.0, -7.0], [-3.0, 2.25, 1.0], [0.5, 1.0, -16.0]] {
+            let [x, y, z, w] = apply(&matrix, position);
+            // As the report has it: x on the plane = x_e − (z_e − a)/(z_e − z)·(x_e − x).
+            let on_plane =
+                |axis: usize| view.eye[axis] - (4.0 - 1.0) / (4.0 - position[2]) * (view.eye[axis] - position[axis]);
+            let inside = |axis: usize| {
+                (on_plane(axis) - view.window[0][axis]) / (view.window[1][axis] - view.window[0][axis]) * 2.0 - 1.0
+            };
+            assert!((x / w - inside(0)).abs() < 1e-12 && (y / w - inside(1)).abs() < 1e-12, "{position:?}");
+            // The plane is the near one.
+            assert!((position[2] == 1.0) == ((z / w + 1.0).abs() < 1e-12) && z / w < 1.0, "{position:?} {z} {w}");
         }
     }
 

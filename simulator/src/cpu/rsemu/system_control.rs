@@ -63,7 +63,8 @@ impl SystemControl {
         set(TTBR0, start.translation_table);
         // All domains as managers: nothing is checked.
         set(DACR, u32::MAX);
-        set(SCTLR, sctlr::M | sctlr::C | sctlr::Z | sctlr::I);
+        let cached = if start.cached { sctlr::M | sctlr::C | sctlr::I } else { 0 };
+        set(SCTLR, sctlr::Z | cached);
         self.note_translation();
     }
 

@@ -9,7 +9,7 @@ use usb_model::dualshock3::Temper;
 use super::rig::{Rig, Server};
 use crate::checks::State;
 use crate::fake_pad::FakePad;
-use crate::golden::Golden;
+use crate::golden::{self, Golden};
 use crate::qemu::UsbDevice;
 use crate::report::checksum_text;
 use crate::session;
@@ -24,7 +24,7 @@ const REPORTS_A_KEY: u16 = 10;
 /// The demonstration's plate, played on the pad: every frame equals the golden one. The pad's tilt is
 /// smoothed report by report, so one that is lost or doubled changes the picture.
 pub fn session_beside_a_keyboard(state: &mut State) -> anyhow::Result<()> {
-    let golden = Golden::read()?.context("the golden file is missing")?;
+    let golden = Golden::read(golden::DEMO)?.context("the golden file is missing")?;
     let parts = session::demo()?;
     let (part, golden) = (&parts[0], &golden.scenes[0]);
     ensure!(part.scene == Scene::Plate && golden.name == "plate", "the session begins with the plate");

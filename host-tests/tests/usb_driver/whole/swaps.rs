@@ -1,0 +1,37 @@
+//! One device in another's place, at any moment.
+
+use dwc2_host::{Config, SpeedLimit};
+use usb_input::{Event, Kind};
+use usb_model::hub::Hub;
+use usb_model::keyboard::{Form, keyboard};
+use usb_model::shared::Shared;
+use usb_model::wire::Speed;
+
+use super::{Whole, port};
+
+/// A hub's news come every 256 ms, at full speed every 255: any moment between two of them, and a bit more.
+const MOMENTS_US: u64 = 300_000;
+
+/// What is connected while the hub is asked about, or has just been told to forget, the one that went is found as well.
+#[test]
+fn whoever_takes_anothers_place_is_found() {
+    for limit in [SpeedLimit::High, SpeedLimit::Full] {
+        let mut whole = Whole::new(Config::new().with_speed_limit(limit));
+        let hub = Shared::new(Hub::new(Speed::High));
+        whole.rig.plug(hub.clone());
+        assert!(whole.run_until(1_000_000, |whole| !whole.events.is_empty()));
+        let mut speeds = [Speed::Low, Speed::Full, Speed::High].into_iter().cycle();
+        for moment in (0..MOMENTS_US).step_by(1_000) {
+            hub.lock().plug(1, Box::new(keyboard(Form::Boot, speeds.next().unwrap_or(Speed::Low))));
+            whole.run(moment);
+            hub.lock().plug(1, Box::new(keyboard(Form::List, speeds.next().unwrap_or(Speed::Low))));
+            let found = whole.run_until(1_000_000, |whole| whole.is_attached(port(1), Kind::ReportKeyboard));
+            assert!(found, "{limit:?}, after {moment} us: {:?}", whole.events);
+            drop(hub.lock().unplug(1));
+            whole.run(300_000);
+            assert!(whole.is_detached(port(1)));
+            assert!(!whole.events.iter().any(|event| matches!(event, Event::Fault { .. })), "{:?}", whole.events);
+            whole.events.clear();
+        }
+    }
+}
