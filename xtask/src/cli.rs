@@ -152,7 +152,7 @@ pub struct RunArguments {
     /// Board to run on
     #[arg(long, value_enum, default_value_t = Board::VexpressA9)]
     pub board: Board,
-    /// Scene to begin with: plate, torus, tunnel, solids, wireframe or polygons
+    /// Scene to begin with: plate, torus, tunnel, solids, wireframe, polygons, model or game
     #[arg(long, value_name = "NAME", value_parser = parse_scene)]
     pub scene: Option<Scene>,
     /// Style to begin with: flat, smooth, wireframe, hidden-lines or depth-as-grey

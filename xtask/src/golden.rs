@@ -57,7 +57,7 @@ impl Golden {
     #[must_use]
     pub fn beginning(&self, parts: &[ScenePart]) -> Self {
         let scene = |part: &ScenePart| {
-            let golden = self.scenes.iter().find(|scene| scene.name == part.scene.name())?;
+            let golden = self.scenes.iter().find(|scene| scene.name == part.title())?;
             let frames = golden.frame_checksums.iter().take(part.frames.len()).cloned().collect();
             Some(GoldenScene { name: golden.name.clone(), frame_checksums: frames })
         };
