@@ -51,7 +51,7 @@ package halfspace_pkg;
     logic [6:0] unused_25;
     logic [0:0] interrupt;  // Whether the low-water interrupt is wired to the processor.
     logic [7:0] pixel_units;  // Pixel units: pixels drawn a clock at most.
-    logic [15:0] fifo_depth;  // FIFO depth in words.
+    logic [15:0] fifo_depth;  // FIFO depth in words, at least twice the longest packet's.
   } capabilities_t;
 
   // Framebuffer size.

@@ -78,7 +78,7 @@ impl Kind {
             },
             Kind::Swap => PacketInfo {
                 name: "SWAP",
-                doc: "Makes the back buffer the front one at the next vertical blank. What follows waits for it and goes to the other buffer. There is at most one swap in a vertical blank. One behind which nothing was drawn is like any other: it waits, counts, and shows what the back buffer holds: the picture that was in front before the last swap.",
+                doc: "Makes the back buffer the front one at the next vertical blank. What follows waits for it and goes to the other buffer. There is at most one swap in a vertical blank. One with nothing drawn since the last is like any other: it waits, counts, and shows what the back buffer holds, which was in front before.",
                 words: &[],
             },
             Kind::Fence => PacketInfo {
