@@ -125,7 +125,9 @@ fn block_by_block_and_whole_are_the_same_words() {
         (BUILT_IN.to_vec(), false),
     ] {
         let [streamed, whole] = both_ways(&bytes, &sight(), smooth);
-        assert!(streamed.len() > 5_000, "{} words", streamed.len());
+        // The file that is built in is small.
+        let least = if bytes == BUILT_IN { 100 } else { 5_000 };
+        assert!(streamed.len() > least, "{} words", streamed.len());
         assert_eq!(streamed, whole);
     }
 }
