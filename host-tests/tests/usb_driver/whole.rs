@@ -4,10 +4,12 @@
 //! | --- | --- |
 //! | `times` | how long it takes to the first report, and from a report to the state |
 //! | `swaps` | one device in another's place, at any moment |
+//! | `speed` | the root port held at full speed while everything runs |
 //! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
 mod rogues;
+mod speed;
 mod swaps;
 mod times;
 
