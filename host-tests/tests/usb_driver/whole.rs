@@ -3,10 +3,12 @@
 //! | module | shows |
 //! | --- | --- |
 //! | `times` | how long it takes to the first report, and from a report to the state |
+//! | `cost` | how often the driver runs, and what it asks of the core's registers |
 //! | `swaps` | one device in another's place, at any moment |
 //! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
+mod cost;
 mod rogues;
 mod swaps;
 mod times;
