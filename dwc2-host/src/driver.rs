@@ -33,12 +33,18 @@ impl<'d> Dwc2<'d> {
 
     /// Handles the core's interrupt and wakes who waited for it; never waits.
     pub fn on_interrupt(&self) {
-        self.poll();
+        self.service(false);
     }
 
     /// Does what is due by the clock and by the core, and wakes who waited for it; never waits. Call it at 1 kHz.
     pub fn poll(&self) {
-        self.with(State::service).wake();
+        self.service(true);
+    }
+
+    fn service(&self, poll: bool) {
+        if let Some(wakes) = self.with(|state| state.service(poll)) {
+            wakes.wake();
+        }
     }
 
     /// Takes the last fault, if there was one since the last call. The driver mends it by itself.

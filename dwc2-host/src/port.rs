@@ -62,18 +62,25 @@ impl Phase {
 }
 
 impl State<'_> {
-    /// Takes the core and the port as far as they go now.
-    pub(crate) fn advance(&mut self, now: u64) {
+    /// Takes the core and the port as far as they go now. The port is looked at when there is news of it, and at
+    /// the end of a phase that has one.
+    pub(crate) fn advance(&mut self, now: u64, mut news: bool) {
         loop {
             let before = self.phase;
-            if before.started() {
-                self.watch_port(now);
-            } else {
+            let over = match before {
+                Phase::Empty | Phase::Ready => false,
+                Phase::Quieten => true,
+                _ => now >= self.phase_end,
+            };
+            if !before.started() {
                 self.advance_start(now);
+            } else if news || over {
+                self.watch_port(now);
             }
             if self.phase == before {
                 break;
             }
+            news = true;
         }
     }
 
