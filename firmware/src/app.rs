@@ -1,6 +1,6 @@
 //! The application: reads controllers, draws frames, talks to a PC.
 
-use core::fmt::Write;
+use core::fmt::{self, Write};
 
 use controls::Button;
 use controls::serial::{Decoder, FRAME_SIZE_MAXIMUM, kind};
@@ -9,6 +9,8 @@ use geometry::MeshError;
 
 use crate::board::Board;
 use crate::frame::{FrameMemory, draw_frame};
+use crate::hush::Hush;
+use crate::inbox::Inbox;
 use crate::intake::Intake;
 use crate::legend;
 use crate::link::{self, BoardMessage, FrameReport, HostMessage, Status};
@@ -17,6 +19,9 @@ use crate::scene::found::Found;
 use crate::scene::meshes::{MeshMemory, Meshes};
 use crate::style::{Manner, Style};
 use crate::viewer::Viewer;
+
+/// Bytes of the link that a round takes in: at 115,200 baud 192 come in a frame's time.
+const LINK_BYTES: usize = 512;
 
 /// Memory that the application works in; large, so a static.
 #[derive(Default)]
@@ -32,6 +37,26 @@ impl Memory {
     }
 }
 
+/// Meshes that are ready to be drawn, and the scene to begin with.
+pub struct Prepared<'a> {
+    meshes: Meshes<'a>,
+    frame: &'a mut FrameMemory,
+    scene: Scene,
+}
+
+impl<'a> Prepared<'a> {
+    /// Makes the built-in meshes, and checks a mesh file that was left in memory: the console is told of one, whatever
+    /// it is, and it makes its scene the first. All of it is read, which takes a while for a large one.
+    ///
+    /// # Errors
+    /// [`MeshError`] if a built-in mesh is malformed.
+    pub fn new(board: &mut impl Board, memory: &'a mut Memory) -> Result<Self, MeshError> {
+        let mut meshes = Meshes::new(&mut memory.meshes)?;
+        let scene = take_mesh_file(board, &mut meshes);
+        Ok(Self { meshes, frame: &mut memory.frame, scene })
+    }
+}
+
 /// The viewer on one board.
 pub struct Application<'a, B: Board, W> {
     board: B,
@@ -41,6 +66,8 @@ pub struct Application<'a, B: Board, W> {
     intake: Intake,
     viewer: Viewer,
     decoder: Decoder,
+    inbox: Inbox,
+    hush: Hush,
     frame: u32,
     /// When a frame ended last, in ticks, and the longest time between two since a PC asked.
     frame_end: u64,
@@ -50,27 +77,24 @@ pub struct Application<'a, B: Board, W> {
 }
 
 impl<'a, B: Board, W: Wait> Application<'a, B, W> {
-    /// Returns the application on a board and its renderer, at the beginning of the first scene; or, if a mesh
-    /// file was found in memory, of the scene that shows it. The console is told of one, whatever it is.
-    ///
-    /// # Errors
-    /// [`MeshError`] if a built-in mesh is malformed.
-    pub fn new(mut board: B, renderer: Renderer<B::Port, W>, memory: &'a mut Memory) -> Result<Self, MeshError> {
-        let mut meshes = Meshes::new(&mut memory.meshes)?;
-        let scene = take_mesh_file(&mut board, &mut meshes);
-        Ok(Self {
+    /// Returns the application on a board and its renderer, at the beginning of the first scene.
+    pub fn new(board: B, renderer: Renderer<B::Port, W>, prepared: Prepared<'a>) -> Self {
+        let Prepared { meshes, frame, scene } = prepared;
+        Self {
             board,
             renderer,
             meshes,
-            frame_memory: &mut memory.frame,
+            frame_memory: frame,
             intake: Intake::new(),
             viewer: Viewer::new(scene),
             decoder: Decoder::new(),
+            inbox: Inbox::default(),
+            hush: Hush::new(B::TICKS_PER_SECOND.into()),
             frame: 0,
             frame_end: 0,
             slowest_frame: 0,
             stepping: false,
-        })
+        }
     }
 
     /// Says on the console what runs, and on what.
@@ -95,9 +119,12 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     pub fn run_once(&mut self) {
         let unreadable = self.board.poll_controllers(&mut self.intake);
         if unreadable > 0 {
-            let _ = writeln!(self.board.console(), "{unreadable} controller reports could not be read");
+            self.complain(format_args!("{unreadable} controller reports could not be read"));
         }
         self.poll_link();
+        if let Some(count) = self.hush.kept_back(self.board.ticks()) {
+            let _ = writeln!(self.board.console(), "and {count} more complaints of the link and the controllers");
+        }
         if self.stepping {
             self.board.sleep();
         } else {
@@ -231,15 +258,15 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         self.tell_changes(before, false);
     }
 
+    /// Takes in what the link has brought, as far as a round may: the main loop has to come round, whatever comes.
     fn poll_link(&mut self) {
-        let mut bytes = [0; 64];
-        loop {
-            let count = self.board.read_link(&mut bytes).min(bytes.len());
-            if count == 0 {
+        for _ in 0..LINK_BYTES {
+            let board = &mut self.board;
+            let Some(byte) = self.inbox.next(|bytes| board.read_link(bytes)) else { return };
+            let frames = self.frame;
+            self.link_byte(byte);
+            if self.frame != frames {
                 return;
-            }
-            for byte in &bytes[..count] {
-                self.link_byte(*byte);
             }
         }
     }
@@ -249,22 +276,25 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
             None => return,
             Some(Ok(frame)) if frame.kind < kind::APPLICATION => {
                 if let Err(error) = self.intake.accept_frame(frame.kind, frame.payload) {
-                    let _ = writeln!(self.board.console(), "link: {error}");
+                    self.complain(format_args!("link: {error}"));
                 }
                 return;
             }
             Some(Ok(frame)) if frame.kind == link::HOST_MESSAGE => link::decode(frame.payload),
             Some(Ok(_)) => None,
-            Some(Err(error)) => {
-                let _ = writeln!(self.board.console(), "link: {error}");
-                return;
-            }
+            Some(Err(error)) => return self.complain(format_args!("link: {error}")),
         };
         match message {
             Some(message) => self.handle(message),
-            None => {
-                let _ = writeln!(self.board.console(), "link: a message that this version does not know");
-            }
+            None => self.complain(format_args!("link: a message that this version does not know")),
+        }
+    }
+
+    /// Says on the console what came in wrong, unless it has just complained: a line takes as long as half a frame, and
+    /// noise can bring thousands a second.
+    fn complain(&mut self, what: fmt::Arguments<'_>) {
+        if self.hush.may_speak(self.board.ticks()) {
+            let _ = writeln!(self.board.console(), "{what}");
         }
     }
 

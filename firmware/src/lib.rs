@@ -5,6 +5,7 @@
 //! | [`app`] | the application: controllers in, frames out |
 //! | [`viewer`], [`act`], [`scene`], [`style`], [`legend`] | what there is to look at: the crate `scenes` |
 //! | [`frame`] | one frame: a stage to packets, and these to the FPGA |
+//! | [`inbox`], [`hush`] | bytes that were read and not looked at yet; complaints, one a second |
 //! | [`intake`] | what controllers say, taken in and tallied |
 //! | [`left_in_memory`] | what somebody left in memory before the start |
 //! | [`link`] | messages between a board and a PC |
@@ -40,6 +41,8 @@ pub mod cortex_a7;
 pub mod cortex_a9;
 pub mod de1_soc;
 pub mod frame;
+pub mod hush;
+pub mod inbox;
 pub mod intake;
 pub mod left_in_memory;
 pub mod link;

@@ -53,7 +53,12 @@ impl SysReg for DomainAccess {
 
 impl SysRegWrite for DomainAccess {}
 
-/// Turns MMU, data cache, instruction cache and branch prediction on.
+/// SCTLR: texture remap and access flag, which would give the descriptors' bits another meaning.
+const REMAP: u32 = 1 << 28;
+const ACCESS_FLAG: u32 = 1 << 29;
+
+/// Turns MMU, data cache, instruction cache and branch prediction on; texture remap, access flag and the trap of
+/// accesses that are not aligned, which U-Boot leaves on, off.
 ///
 /// # Safety
 /// - The MMU and the data cache are off, and the L1 caches hold nothing that memory lacks.
@@ -77,6 +82,8 @@ pub unsafe fn enable(table: &'static TranslationTable) {
     dsb();
     isb();
     Sctlr::modify(|control| {
+        *control = Sctlr::new_with_raw_value(control.raw_value() & !(REMAP | ACCESS_FLAG));
+        control.set_a(false);
         control.set_m(true);
         control.set_c(true);
         control.set_i(true);

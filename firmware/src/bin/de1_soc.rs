@@ -11,5 +11,5 @@ static MEMORY: ConstStaticCell<Memory> = ConstStaticCell::new(Memory::new());
 
 #[entry]
 fn main() -> ! {
-    de1_soc::run(MEMORY.take())
+    de1_soc::run(&MEMORY)
 }

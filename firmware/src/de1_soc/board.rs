@@ -16,7 +16,7 @@ use super::fpga::Fpga;
 use super::fpga_manager::FpgaManager;
 use super::front_panel::FrontPanel;
 use super::gpio::{Input, Output};
-use super::history::{FAILURES, Note, Stage, Verdict};
+use super::history::{Note, Stage, Verdict};
 use super::interrupts::{self, Sources};
 use super::memory_map::{
     CLUSTER, FPGA_MANAGER, GPIO1, INTERCONNECT, KEY_BIT, LED_BIT, REGIONS, RESET_MANAGER, SYSTEM_MANAGER, UART,
@@ -122,6 +122,7 @@ impl Board {
         let (resets, system) = (resets(), system());
         let cause = resets.take_cause();
         let verdict = Verdict::of(cause, system.note().and_then(Note::from_word));
+        system.leave_note(Note { stage: Stage::Idle, failures: verdict.failures }.to_word());
         resets.release(Peripheral::Gpio1);
 
         // SAFETY: this function runs once, so nobody else refers to the queue; the addresses
@@ -228,11 +229,11 @@ fn write_last_words(text: &str) {
 }
 
 /// Resets the board after a fault or a panic was told, so that it runs again; but not for ever: after
-/// [`FAILURES`] in a row it stays, its LED fast.
+/// [`FAILURES`](super::history::FAILURES) in a row it stays, its LED fast.
 fn stop_after_fault() -> ! {
-    let failures = system().note().and_then(Note::from_word).map_or(0, |note| note.failures);
-    system().leave_note(Note { stage: Stage::Fault, failures }.to_word());
-    let stays = failures.saturating_add(1) >= FAILURES;
+    let note = Note::of_fault(system().note().and_then(Note::from_word));
+    system().leave_note(note.to_word());
+    let stays = note.is_last();
     let what = if stays { "it happened too often: reset the board by hand" } else { "the board is reset" };
     write_last_words(what);
     write_last_words("\n");
@@ -247,6 +248,8 @@ fn stop_after_fault() -> ! {
     // SAFETY: the program ends, and nobody else drives the LED or sets the clock.
     let (pins, clock) = unsafe { (Registers::at(GPIO1), GlobalTimer::at(CLUSTER.global_timer(), CLUSTER.timer_hertz)) };
     let mut led = Output::new(pins, LED_BIT);
+    // It may not have been started yet.
+    clock.start();
     loop {
         let _ = led.set_state(Blink::Fault.is_lit(clock.microseconds() / 1_000).into());
     }

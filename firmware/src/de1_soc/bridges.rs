@@ -43,6 +43,7 @@ impl<B: Bus> Bridges<B> {
         self.interconnect.write(Remap, CLOSED);
         self.interconnect.settle();
         self.resets.hold_bridges();
+        self.system.disconnect_fpga_modules();
     }
 
     /// Opens both, out of a fresh reset.
@@ -50,7 +51,6 @@ impl<B: Bus> Bridges<B> {
     /// The FPGA is configured, or the first access stops the processor.
     pub fn open(&mut self) {
         self.close();
-        self.system.disconnect_fpga_modules();
         self.resets.release_bridges();
         self.interconnect.write(Remap, OPEN);
         self.interconnect.settle();
@@ -72,8 +72,8 @@ mod tests {
         let mut bridges = Bridges::new(Registers::on(bus.clone(), 0xFF80_0000), resets, system);
         bridges.open();
         use Access::{Settle, Write};
-        let closing = [Write(0xFF80_0000, 0x01), Settle, Write(0xFFD0_501C, 0x7), Settle];
-        let opening = [Write(0xFFD0_8028, 0), Write(0xFFD0_501C, 0x4), Settle, Write(0xFF80_0000, 0x19), Settle];
+        let closing = [Write(0xFF80_0000, 0x01), Settle, Write(0xFFD0_501C, 0x7), Settle, Write(0xFFD0_8028, 0)];
+        let opening = [Write(0xFFD0_501C, 0x4), Settle, Write(0xFF80_0000, 0x19), Settle];
         assert_eq!(bus.take_journal(), [&closing[..], &opening].concat());
         bridges.close();
         assert_eq!(bus.take_journal(), closing);

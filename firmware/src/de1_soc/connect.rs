@@ -92,6 +92,8 @@ impl ViewerBoard {
                     let _ = writeln!(self.console, "{status}, bridges open");
                     return found;
                 }
+                // It stopped since then.
+                Err(RenderError::NotConfigured(_)) => self.fpga.close(),
                 Err(error) => {
                     self.fpga.close();
                     let _ = writeln!(self.console, "{error}");
@@ -129,13 +131,13 @@ impl ViewerBoard {
         }
     }
 
-    /// Waits until the HPS key goes down, or an FPGA that ran stops running.
+    /// Waits until the HPS key goes down, or an FPGA that ran stops running or the other way round.
     fn wait_for_key_or_new_design(&mut self, blink: Blink) {
         let ran = self.fpga.status().check().is_ok();
         let mut was_down = true;
         loop {
             let down = self.key.is_low() == Ok(true);
-            if down && !was_down || ran && self.fpga.status().check().is_err() {
+            if down && !was_down || ran != self.fpga.status().check().is_ok() {
                 return;
             }
             was_down = down;

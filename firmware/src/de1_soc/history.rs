@@ -49,6 +49,26 @@ impl Note {
         MAGIC | (self.stage as u32) << 8 | self.failures as u32
     }
 
+    /// Returns what a run that met a fault leaves, where `found` is the last note.
+    ///
+    /// A start judges the last end and leaves a note of its own. A note that still says "fault" is the run's before:
+    /// this one met its fault before it could judge.
+    #[must_use]
+    pub const fn of_fault(found: Option<Self>) -> Self {
+        let failures = match found {
+            None => 0,
+            Some(Self { stage: Stage::Fault, failures }) => failures.saturating_add(1),
+            Some(Self { failures, .. }) => failures,
+        };
+        Self { stage: Stage::Fault, failures }
+    }
+
+    /// Returns whether the run that leaves this note was one too many.
+    #[must_use]
+    pub const fn is_last(self) -> bool {
+        self.failures.saturating_add(1) >= FAILURES
+    }
+
     /// Reads a note; `None` if the word is none.
     #[must_use]
     pub const fn from_word(word: u32) -> Option<Self> {
@@ -182,6 +202,21 @@ mod tests {
             let holds = [0, 1, 2, 3, u8::MAX].map(|failures| Verdict::of(cause, note(stage, failures)).hold);
             assert_eq!(holds, [false, false, true, true, true]);
         }
+    }
+
+    #[test]
+    fn faults_before_the_last_end_is_judged_count_too() {
+        let mut found = None;
+        let ends = [(); 4].map(|()| {
+            let left = Note::of_fault(found);
+            found = Note::from_word(left.to_word());
+            left.is_last()
+        });
+        assert_eq!(ends, [false, false, true, true]);
+        // One that was judged to be the second in a row, and begins to draw.
+        let judged = Verdict::of(SOFTWARE, note(Stage::Fault, 1));
+        assert!(Note::of_fault(note(Stage::Running, judged.failures)).is_last());
+        assert!(!Note::of_fault(note(Stage::Running, 1)).is_last());
     }
 
     #[test]

@@ -19,6 +19,8 @@ pub enum Offset {
     ModemControl = 0x10,
     /// LSR.
     LineStatus = 0x14,
+    /// USR.
+    Status = 0x7C,
 }
 
 impl Register for Offset {
@@ -44,6 +46,8 @@ const DATA_READY: u32 = 1 << 0;
 const DATA_ERRORS: u32 = 0b1111 << 1;
 /// LSR: the transmit FIFO is empty.
 const TRANSMIT_EMPTY: u32 = 1 << 5;
+/// USR: the transmit FIFO, of 128 bytes, is not full.
+const TRANSMIT_ROOM: u32 = 1 << 1;
 /// LSR: the last byte has left.
 const TRANSMIT_IDLE: u32 = 1 << 6;
 
@@ -85,7 +89,8 @@ impl<B: Bus> Uart16550<B> {
 
 impl<B: Bus> Uart for Uart16550<B> {
     fn try_send(&self, byte: u8) -> bool {
-        let room = self.status() & TRANSMIT_EMPTY != 0;
+        // The second is the first's sign for those whose USR is left out and reads 0.
+        let room = self.registers.read(Offset::Status) & TRANSMIT_ROOM != 0 || self.status() & TRANSMIT_EMPTY != 0;
         if room {
             self.registers.write(Offset::Data, u32::from(byte));
         }
@@ -154,6 +159,10 @@ mod tests {
         let (empty, bus) = uart(0x60);
         assert!(empty.try_send(b'x'));
         assert_eq!(bus.take_writes(), [(BASE, u32::from(b'x'))]);
+        let (filling, bus) = uart(0x00);
+        bus.devices(|memory| memory.insert(BASE + 0x7C, 0b010));
+        assert!(filling.try_send(b'y'));
+        assert_eq!(bus.take_writes(), [(BASE, u32::from(b'y'))]);
     }
 
     #[test]

@@ -91,7 +91,10 @@ impl ViewerBoard {
 
     /// What the FPGA's and the processor's keys and switches are.
     fn panel_report(&mut self) -> PanelReport {
-        self.panel.sample();
+        // The design may have gone since the round began: it stays as it was then.
+        if self.fpga.is_usable() {
+            self.panel.sample();
+        }
         let bit = |is: bool, number: u32| u16::from(is) << number;
         let keys = (0..4).fold(0, |keys, number| keys | bit(self.panel.key(number).is_high() == Ok(true), number));
         let own = bit(self.key.is_low() == Ok(true), 4);
@@ -106,7 +109,9 @@ impl ViewerBoard {
             let _ = self.panel.led(number).set_state((lit >> number & 1 == 1).into());
         }
         self.panel.set_digits(self.score.map_or_else(|| self.readout.digits(), decimal));
-        self.panel.show();
+        if self.fpga.is_usable() {
+            self.panel.show();
+        }
     }
 
     /// Tells once a second of interrupts that nobody asked for, and once at all when the FPGA's does not come:

@@ -7,7 +7,7 @@ use fpga_regs::{RenderError, Renderer, Timeouts, Wait};
 
 use super::display::Display;
 use super::model_port::{ModelMemory, ModelPort};
-use crate::app::{Application, Memory};
+use crate::app::{Application, Memory, Prepared};
 use crate::board::Board;
 
 /// Returns the application on `board`, with the software model on `display`.
@@ -15,7 +15,7 @@ use crate::board::Board;
 /// # Errors
 /// What did not start.
 pub fn application<B, D, T>(
-    board: B,
+    mut board: B,
     display: D,
     delay: T,
     model_memory: &'static mut ModelMemory,
@@ -28,7 +28,8 @@ where
 {
     let port = ModelPort::new(model_memory, display).map_err(StartError::Model)?;
     let renderer = Renderer::new(port, ClockWait(delay), Timeouts::default()).map_err(StartError::Renderer)?;
-    Application::new(board, renderer, memory).map_err(StartError::Mesh)
+    let prepared = Prepared::new(&mut board, memory).map_err(StartError::Mesh)?;
+    Ok(Application::new(board, renderer, prepared))
 }
 
 /// Why the application did not start.

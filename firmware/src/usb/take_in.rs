@@ -17,7 +17,10 @@ pub struct Taken {
     pub faults: u32,
 }
 
-/// Takes in all that has happened: reports go to the controls, the rest to the console.
+/// News that a round takes in at most: a line on the console takes as long as a third of a frame.
+const ROUND: usize = 32;
+
+/// Takes in what has happened: reports go to the controls, the rest to the console.
 pub fn take_in(
     mut next: impl FnMut() -> Option<News>,
     merge: &mut Merge,
@@ -25,7 +28,7 @@ pub fn take_in(
     console: &mut impl Write,
 ) -> Taken {
     let mut taken = Taken::default();
-    while let Some(news) = next() {
+    for news in core::iter::from_fn(&mut next).take(ROUND) {
         match &news {
             News::Device(event) => {
                 if let Some(report) = merge.report(event) {

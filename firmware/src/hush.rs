@@ -1,0 +1,57 @@
+//! Complaints that could come by the thousand, at most one a second.
+
+/// Lets one complaint a second through, and counts the others.
+#[derive(Debug)]
+pub struct Hush {
+    /// A second, in the clock's ticks.
+    second: u64,
+    /// When one was let through last.
+    spoke: Option<u64>,
+    kept_back: u32,
+}
+
+impl Hush {
+    /// Lets the first one through.
+    #[must_use]
+    pub const fn new(ticks_per_second: u64) -> Self {
+        Self { second: ticks_per_second, spoke: None, kept_back: 0 }
+    }
+
+    /// Whether a complaint may be made now; one that may not is counted.
+    pub fn may_speak(&mut self, now: u64) -> bool {
+        let may = self.is_over(now);
+        if may {
+            self.spoke = Some(now);
+        } else {
+            self.kept_back = self.kept_back.saturating_add(1);
+        }
+        may
+    }
+
+    /// Returns how many were kept back, once their second is over; `None` when there is nothing to tell yet.
+    pub fn kept_back(&mut self, now: u64) -> Option<u32> {
+        (self.kept_back > 0 && self.is_over(now)).then(|| {
+            self.spoke = Some(now);
+            core::mem::take(&mut self.kept_back)
+        })
+    }
+
+    fn is_over(&self, now: u64) -> bool {
+        self.spoke.is_none_or(|spoke| now.wrapping_sub(spoke) >= self.second)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_a_second_speaks_and_the_others_are_counted() {
+        let mut hush = Hush::new(1_000);
+        assert_eq!([0, 1, 2, 999].map(|now| hush.may_speak(now)), [true, false, false, false]);
+        assert_eq!([hush.kept_back(999), hush.kept_back(1_000), hush.kept_back(1_001)], [None, Some(3), None]);
+        assert!(!hush.may_speak(1_500), "the count was a line, too");
+        assert!(hush.may_speak(2_000));
+        assert_eq!(hush.kept_back(5_000), Some(1));
+    }
+}
