@@ -35,7 +35,8 @@ const BUILDS: [Build; 5] = [
 ];
 
 /// What `shim.cpp` is made of.
-const SHIM: [&str; 4] = ["src/shim.cpp", "src/shim/falling_edges.h", "src/shim/scan.h", "src/shim/wave.h"];
+const SHIM: [&str; 5] =
+    ["src/shim.cpp", "src/shim/falling_edges.h", "src/shim/scan.h", "src/shim/unwatched.h", "src/shim/wave.h"];
 
 const MISSING: &str = "install it (Debian: apt-get install verilator g++)";
 

@@ -28,8 +28,9 @@ pub(crate) struct Calls {
     pub(crate) run: unsafe extern "C" fn(*mut c_void, u64, u32) -> u64,
     pub(crate) swaps: unsafe extern "C" fn(*const c_void) -> u64,
     pub(crate) scan: unsafe extern "C" fn(*mut c_void, u32),
+    pub(crate) watch: unsafe extern "C" fn(*mut c_void, u32),
     pub(crate) scanned: unsafe extern "C" fn(*const c_void, *mut u8, *mut u64) -> u32,
-    pub(crate) scan_left: unsafe extern "C" fn(*const c_void, *mut u64) -> u64,
+    pub(crate) scan_left: unsafe extern "C" fn(*mut c_void, *mut u64) -> u64,
 }
 
 /// Declares a build's functions, `halfspace_BUILD_FIELD` each.
@@ -74,8 +75,9 @@ macro_rules! builds {
                 run(*mut c_void, u64, u32) -> u64;
                 swaps(*const c_void) -> u64;
                 scan(*mut c_void, u32);
+                watch(*mut c_void, u32);
                 scanned(*const c_void, *mut u8, *mut u64) -> u32;
-                scan_left(*const c_void, *mut u64) -> u64;
+                scan_left(*mut c_void, *mut u64) -> u64;
             };
         )+
     };

@@ -134,6 +134,14 @@ impl Rtl {
         unsafe { (self.calls.scan)(self.sim, on.into()) }
     }
 
+    /// Says whether anyone looks at the VGA pins, as is taken for granted until told otherwise. While nobody does, no
+    /// picture is taken from them, and VGA's clocks are left out in lines in which nothing else depends on them. All
+    /// else happens in the same clock as it would. A picture that begins after someone looks again is whole.
+    pub fn set_watched(&mut self, on: bool) {
+        // Safety: as above.
+        unsafe { (self.calls.watch)(self.sim, on.into()) }
+    }
+
     /// Returns the last whole picture that was taken from the pins, and how many swaps came before it.
     pub fn scanned(&self) -> Option<(Frame, u64)> {
         let (mut pixels, mut swaps) = (vec![[0; 3]; Frame::PIXELS], 0);

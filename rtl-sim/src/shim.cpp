@@ -8,6 +8,7 @@
 #include ROOT_HEADER
 #include "shim/falling_edges.h"
 #include "shim/scan.h"
+#include "shim/unwatched.h"
 #include "shim/wave.h"
 #include "verilated.h"
 
@@ -68,6 +69,7 @@ struct Sim {
   uint32_t front = 0;
   uint64_t settled = 0;
   Scan scan;
+  Unwatched unwatched;
   // Ends before the model does.
   Wave wave;
 
@@ -100,6 +102,21 @@ struct Sim {
     scan.clock(model, swaps);
   }
 
+  auto& x() { return model.rootp->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__x_q; }
+  auto& y() { return model.rootp->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q; }
+
+  // VGA's clocks that are due after bus clocks.
+  void vga_clocks_due(uint64_t bus_clocks) {
+    const uint64_t phase = vga_phase + bus_clocks * vga_ratio;
+    vga_phase = phase & 0xffff;
+    for (uint64_t due = phase >> 16; due > 0;) {
+      const uint64_t left_out = unwatched.leave_out(x(), y(), due);
+      if (left_out == 0) vga_clock();
+      vga_clocks += left_out;
+      due -= std::max<uint64_t>(left_out, 1);
+    }
+  }
+
   // Outputs are valid, for the inputs as they stand, before and after.
   void clock() {
     wave.at_clock(clocks);
@@ -115,7 +132,7 @@ struct Sim {
     tiles += model.debug_tile_o;
     swaps += model.debug_front_o != front;
     front = model.debug_front_o;
-    for (vga_phase += vga_ratio; vga_phase >= 65536; vga_phase -= 65536) vga_clock();
+    vga_clocks_due(1);
     hurry_on();
   }
 
@@ -125,9 +142,7 @@ struct Sim {
     uint64_t left_out = 0;
     while (count > 0) {
       if (leave_out && settled >= kSettled && count >= kLeftOut + kCarry) {
-        for (uint64_t i = 0; i < kLeftOut; i++) {
-          for (vga_phase += vga_ratio; vga_phase >= 65536; vga_phase -= 65536) vga_clock();
-        }
+        vga_clocks_due(kLeftOut);
         left_out += kLeftOut;
         count -= kLeftOut;
         for (uint64_t i = 0; i < kCarry; i++) settle();
@@ -155,9 +170,8 @@ struct Sim {
   }
 
   void to_end_of_line(uint32_t line) {
-    auto* root = model.rootp;
-    root->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__x_q = 796;
-    root->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q = line;
+    x() = 796;
+    y() = line;
   }
 };
 
@@ -201,12 +215,18 @@ uint32_t NAME(_swap_pending)(const Sim* sim) { return sim->model.debug_swap_pend
 uint64_t NAME(_run)(Sim* sim, uint64_t count, uint32_t leave_out) { return sim->run(count, leave_out); }
 uint64_t NAME(_swaps)(const Sim* sim) { return sim->swaps; }
 
+// Says whether anyone looks at VGA's pins; pictures are taken from them only then.
+void NAME(_watch)(Sim* sim, uint32_t on) {
+  sim->unwatched.set(!on, sim->x(), sim->y());
+  sim->scan.watch(on);
+}
+
 // As the functions of Scan.
 void NAME(_scan)(Sim* sim, uint32_t on) { sim->scan.set(on); }
 uint32_t NAME(_scanned)(const Sim* sim, uint8_t* pixels, uint64_t* swaps) { return sim->scan.whole(pixels, swaps); }
-uint64_t NAME(_scan_left)(const Sim* sim, uint64_t* swaps) {
+uint64_t NAME(_scan_left)(Sim* sim, uint64_t* swaps) {
   *swaps = sim->scan.swaps_before(sim->swaps);
-  return Scan::left(sim->model.rootp->halfspace_sim__DOT__u_device__DOT__u_scanout__DOT__u_timing__DOT__y_q);
+  return Scan::left(sim->unwatched.line(sim->y()));
 }
 
 // Writes a word to the aperture; returns for how many clocks it was held.

@@ -192,13 +192,29 @@ impl Bus {
         self.ocram.contains(address).then_some(&self.ocram)
     }
 
+    /// Notes which instruction the accesses that come are of, by its physical address.
+    #[inline]
+    pub fn set_instruction(&self, address: u32) {
+        self.instruction.store(address, Relaxed);
+    }
+
+    /// Returns whether a program's code may lie at an address.
+    pub fn is_code(&self, address: u32) -> bool {
+        (0..UBOOT).contains(&address)
+    }
+
+    /// Does what DSB and DMB do.
+    pub fn barrier(&self) {
+        self.caches.barrier(&self.sdram);
+    }
+
     /// Fetches an instruction.
     ///
     /// # Errors
     /// When the run must stop.
     #[inline]
     pub fn fetch(&self, address: u32, bytes: u32) -> Result<u32, Refused> {
-        self.instruction.store(address, Relaxed);
+        self.set_instruction(address);
         let Some(ram) = self.ram(address) else {
             return Err(self.refuse(Access::Fetch, address, "no memory to fetch from", "a jump to code"));
         };
@@ -213,7 +229,7 @@ impl Bus {
         if word & HINT_WAIT_MASK == HINT_WAIT {
             self.set_deadline(0);
         } else if word & BARRIER_MASK == BARRIER && word & BARRIER_ISB == 0 {
-            self.caches.barrier(&self.sdram);
+            self.barrier();
         }
         Ok(word)
     }

@@ -196,7 +196,7 @@ impl Caches {
     /// When the line's new contents may not have left the data cache.
     #[inline]
     pub fn fetch(&self, memory: &Memory, address: u32) -> Result<(), &'static str> {
-        if memory.line(address).load(Relaxed) & L1_DIRTY != 0 {
+        if !is_fetched(memory.line(address).load(Relaxed)) {
             return Err("the instruction was written and not yet cleaned out of the L1 data cache");
         }
         Ok(())
@@ -364,6 +364,12 @@ impl Caches {
         memory.line(address).store(state | KNOWN | L1_STALE | l2, Relaxed);
         Ok(())
     }
+}
+
+/// Returns whether an instruction of a line in this state can be fetched.
+#[inline]
+pub(crate) fn is_fetched(line: u8) -> bool {
+    line & L1_DIRTY == 0
 }
 
 /// Says what is wrong with an access around the caches.

@@ -1,5 +1,6 @@
 //! The processor, and the seam behind which it is emulated.
 
+mod quick;
 pub mod rsemu;
 
 use std::fmt;

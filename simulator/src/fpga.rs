@@ -55,7 +55,7 @@ pub trait Fpga {
     /// Writes a word to the FIFO's aperture and returns for how long the bus was held.
     fn push(&mut self, word: u32, now: Clocks) -> Clocks;
 
-    /// Runs up to now.
+    /// Runs up to now, or not yet where it need not be looked at.
     fn advance(&mut self, now: Clocks);
 
     /// Returns when the processor should look again, at the latest.
@@ -67,11 +67,12 @@ pub trait Fpga {
     /// Returns how many frames were shown since power-on: swaps that took place.
     fn frames_shown(&self) -> u64;
 
-    /// Returns what the screen shows: the last whole frame, or `None` before there was one.
+    /// Returns what the screen shows: the last whole frame that was looked at, or `None` before there was one.
     fn screen(&mut self) -> Option<Screen>;
 
-    /// Returns when a screen that is whole, and begins now or later, has been scanned out.
-    fn scanned_out(&self, now: Clocks) -> Clocks {
+    /// Looks at the screen until one that is whole, and shows the last frame, has been scanned out; returns when
+    /// that is.
+    fn scanned_out(&mut self, now: Clocks) -> Clocks {
         now
     }
 

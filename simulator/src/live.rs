@@ -37,7 +37,12 @@ pub fn run(machine: Machine, file: File) -> Result<(), Box<dyn Error>> {
         let started = Instant::now();
         live.take_keys(window.get_keys());
         live.run()?;
-        if let Some(screen) = live.machine.hardware(|hardware| hardware.fpga.screen()) {
+        let now = live.machine.now();
+        let screen = live.machine.hardware(|hardware| {
+            hardware.fpga.scanned_out(now);
+            hardware.fpga.screen()
+        });
+        if let Some(screen) = screen {
             for (pixel, [red, green, blue]) in pixels.iter_mut().zip(screen.pixels()) {
                 *pixel = u32::from_be_bytes([0, *red, *green, *blue]);
             }

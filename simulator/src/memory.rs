@@ -3,6 +3,8 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
 
+use crate::cache;
+
 /// Bytes of a chunk, the unit in which memory is taken from the host when it is first touched.
 const CHUNK_BYTES: u32 = 1 << 20;
 /// Bytes of a cache line, in both levels.
@@ -13,6 +15,21 @@ const GARBAGE: u32 = 0xD1EB_A5E5;
 struct Chunk {
     words: Box<[AtomicU32]>,
     lines: Box<[AtomicU8]>,
+}
+
+/// A page of memory, as instructions are fetched from it.
+pub struct Page<'a> {
+    words: &'a [AtomicU32],
+    lines: &'a [AtomicU8],
+}
+
+impl Page<'_> {
+    /// Returns a word by its index, unless the line that holds it may not have left the data cache.
+    #[inline(always)]
+    pub fn fetch(&self, index: usize) -> Option<u32> {
+        let line = self.lines[index / (LINE_BYTES / 4) as usize].load(Relaxed);
+        cache::is_fetched(line).then(|| self.words[index].load(Relaxed))
+    }
 }
 
 /// A range of RAM, aligned to its chunks.
@@ -46,6 +63,16 @@ impl Memory {
             lines: (0..CHUNK_BYTES / LINE_BYTES).map(|_| AtomicU8::new(0)).collect(),
         });
         (chunk, offset % CHUNK_BYTES)
+    }
+
+    /// Returns the page of 4 KiB that holds an address.
+    pub fn page(&self, address: u32) -> Page<'_> {
+        let (chunk, offset) = self.chunk(address & !0xFFF);
+        let (word, line) = ((offset / 4) as usize, (offset / LINE_BYTES) as usize);
+        Page {
+            words: &chunk.words[word..word + 0x1000 / 4],
+            lines: &chunk.lines[line..line + 0x1000 / LINE_BYTES as usize],
+        }
     }
 
     /// Reads the word that holds an address.

@@ -19,10 +19,16 @@ class Scan {
     whole_frames_ = 0;
   }
 
+  // Looks at the pins from now on, or no longer; keeps the last whole picture.
+  void watch(bool on) {
+    watched_ = on;
+    at_ = 0;
+  }
+
   // Looks at the pins after one of VGA's clocks; so many swaps took place until now.
   template <typename Model>
   void clock(const Model& model, uint64_t swaps) {
-    if (scan_.empty()) return;
+    if (scan_.empty() || !watched_) return;
     if (model.vga_blank_no) {
       take_pixel(model, swaps);
     } else if (!model.vga_vsync_no) {
@@ -64,6 +70,7 @@ class Scan {
   }
 
   std::vector<uint8_t> scan_, whole_;
+  bool watched_ = true;
   uint32_t at_ = 0;
   uint64_t swaps_ = 0, whole_swaps_ = 0, whole_frames_ = 0;
 };

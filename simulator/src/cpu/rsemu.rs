@@ -5,6 +5,8 @@
 //! target builds without), cycle counters.
 
 mod system_control;
+#[cfg(test)]
+mod tests;
 
 use std::fmt;
 use std::sync::Arc;
@@ -13,6 +15,7 @@ use rsemu::core::error::BusError;
 use rsemu::core::space::{AccessConstraints, AddressSpace, MemAttrs, MemOps, MemResult, Region};
 use rsemu::cpu::arm::aprofile::{Arm, Config, psr};
 
+use super::quick::Quick;
 use super::{Cpu, Pause, Registers, Start};
 use crate::bus::{Bus, Refused};
 use system_control::SystemControl;
@@ -58,6 +61,7 @@ pub struct Interpreter {
     arm: Arm,
     bus: Arc<Bus>,
     system: Arc<SystemControl>,
+    quick: Quick,
     instructions: u64,
 }
 
@@ -77,7 +81,7 @@ impl Cpu for Interpreter {
         arm.attach_coprocessor(15, system.clone());
         // The reset sequence.
         arm.step();
-        Self { arm, bus, system, instructions: 0 }
+        Self { arm, bus, system, quick: Quick::new(), instructions: 0 }
     }
 
     fn start(&mut self, start: &Start) {
@@ -93,13 +97,23 @@ impl Cpu for Interpreter {
     }
 
     fn run(&mut self) -> Pause {
-        let Self { arm, bus, instructions, .. } = self;
-        arm.set_irq(bus.interrupt());
+        let Self { arm, bus, system, quick, instructions } = self;
+        let interrupt = bus.interrupt();
+        arm.set_irq(interrupt);
         let asleep = || arm.is_halted() && !bus.interrupt();
         if asleep() {
             return Pause::Asleep;
         }
+        // An instruction that sleeps, and the interrupt that ends it, are the library's.
+        let mut wakes = arm.is_halted();
         loop {
+            if !std::mem::take(&mut wakes) {
+                let (count, ended) = quick.run(arm, bus, system.as_ref(), interrupt);
+                *instructions += count;
+                if ended {
+                    return Pause::Deadline;
+                }
+            }
             arm.step();
             *instructions += 1;
             let now = bus.now() + 1;

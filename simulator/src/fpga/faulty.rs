@@ -98,7 +98,7 @@ impl Fpga for Faulty {
         self.inner.screen()
     }
 
-    fn scanned_out(&self, now: Clocks) -> Clocks {
+    fn scanned_out(&mut self, now: Clocks) -> Clocks {
         self.inner.scanned_out(now)
     }
 

@@ -15,8 +15,9 @@ const FABRIC_HERTZ: u64 = CPU_HERTZ / FABRIC_CLOCK;
 const VGA_HERTZ: u64 = 25_175_000;
 /// VGA clocks in a fabric clock, in 1/65,536, rounded.
 const VGA_RATIO: u32 = ((VGA_HERTZ * 65_536 + FABRIC_HERTZ / 2) / FABRIC_HERTZ) as u32;
-/// How often the processor looks at the interrupt line: a line of VGA, 32 µs.
-const LOOK: Clocks = 1_600 * FABRIC_CLOCK;
+/// How often the design is brought up to now and its interrupt line looked at, while nothing accesses it: a line of
+/// VGA, 31 µs: as many clocks as are left out at a time, and those run after them.
+const LOOK: Clocks = 1_566 * FABRIC_CLOCK;
 
 /// The design, verilated.
 pub struct Verilated {
@@ -31,6 +32,10 @@ pub struct Verilated {
     shown: u64,
     /// Fabric clocks at the design's reset.
     start: u64,
+    /// When it is looked at next.
+    look_at: Clocks,
+    /// Someone waits for a picture.
+    watched: bool,
 }
 
 impl Verilated {
@@ -43,35 +48,14 @@ impl Verilated {
         rtl.set_hurry(false);
         rtl.set_vga_ratio(VGA_RATIO);
         rtl.set_scan(true);
+        rtl.set_watched(false);
         let start = rtl.clocks();
-        Self { rtl: SendWrapper::new(rtl), units, left_out: 0, waited: 0, shown: 0, start }
-    }
-}
-
-impl Fpga for Verilated {
-    fn read(&mut self, offset: u32, now: Clocks) -> u32 {
-        self.advance(now);
-        let value = self.rtl.read_offset(offset);
-        match Register::at(offset as usize) {
-            Some(Register::BusyCycles | Register::StalledCycles) => value.wrapping_add(self.waited as u32),
-            _ => value,
-        }
+        Self { rtl: SendWrapper::new(rtl), units, left_out: 0, waited: 0, shown: 0, start, look_at: 0, watched: false }
     }
 
-    fn write(&mut self, offset: u32, value: u32, now: Clocks) {
-        self.advance(now);
-        if offset == Register::Control as u32 && Control(value).reset() {
-            self.waited = 0;
-        }
-        self.rtl.write_offset(offset, value);
-    }
-
-    fn push(&mut self, word: u32, now: Clocks) -> Clocks {
-        self.advance(now);
-        self.rtl.push_word(word) * FABRIC_CLOCK
-    }
-
-    fn advance(&mut self, now: Clocks) {
+    /// Runs the design up to now.
+    fn catch_up(&mut self, now: Clocks) {
+        self.look_at = now + LOOK;
         let done = self.rtl.clocks() - self.start + self.left_out;
         let due = (now / FABRIC_CLOCK).saturating_sub(done);
         if due > 0 {
@@ -82,10 +66,50 @@ impl Fpga for Verilated {
                 self.waited += left_out;
             }
         }
+        if self.watched && self.rtl.swaps_scanned() == Some(self.rtl.swaps()) {
+            self.watch(false);
+        }
     }
 
-    fn next_event(&self, now: Clocks) -> Clocks {
-        now + LOOK
+    fn watch(&mut self, on: bool) {
+        if on != self.watched {
+            self.watched = on;
+            self.rtl.set_watched(on);
+        }
+    }
+}
+
+impl Fpga for Verilated {
+    fn read(&mut self, offset: u32, now: Clocks) -> u32 {
+        self.catch_up(now);
+        let value = self.rtl.read_offset(offset);
+        match Register::at(offset as usize) {
+            Some(Register::BusyCycles | Register::StalledCycles) => value.wrapping_add(self.waited as u32),
+            _ => value,
+        }
+    }
+
+    fn write(&mut self, offset: u32, value: u32, now: Clocks) {
+        self.catch_up(now);
+        if offset == Register::Control as u32 && Control(value).reset() {
+            self.waited = 0;
+        }
+        self.rtl.write_offset(offset, value);
+    }
+
+    fn push(&mut self, word: u32, now: Clocks) -> Clocks {
+        self.catch_up(now);
+        self.rtl.push_word(word) * FABRIC_CLOCK
+    }
+
+    fn advance(&mut self, now: Clocks) {
+        if now >= self.look_at {
+            self.catch_up(now);
+        }
+    }
+
+    fn next_event(&self, _: Clocks) -> Clocks {
+        self.look_at
     }
 
     fn interrupt(&self) -> bool {
@@ -100,11 +124,12 @@ impl Fpga for Verilated {
         Screen::new(self.rtl.scanned()?.0.pixels().to_vec())
     }
 
-    fn scanned_out(&self, now: Clocks) -> Clocks {
+    fn scanned_out(&mut self, now: Clocks) -> Clocks {
         let swaps = self.rtl.swaps();
         if self.rtl.swaps_scanned() == Some(swaps) {
             return now;
         }
+        self.watch(true);
         let (clocks, of) = self.rtl.scan_left();
         // The picture under way may have begun before the last swap; then look again at its end.
         let clocks = if of == swaps { clocks } else { clocks + 1 };
@@ -112,6 +137,7 @@ impl Fpga for Verilated {
     }
 
     fn reset(&mut self, now: Clocks) {
-        *self = Self { shown: self.frames_shown(), left_out: now / FABRIC_CLOCK, ..Self::new(self.units) };
+        *self =
+            Self { shown: self.frames_shown(), left_out: now / FABRIC_CLOCK, look_at: now, ..Self::new(self.units) };
     }
 }

@@ -1,11 +1,13 @@
 //! The board with the image, and what a person at it sees.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use simulator::devices::ResetCause;
 use simulator::time::milliseconds;
 use simulator::{Event, Image, Machine, PowerOn};
 
+/// What names the raw binary.
+const BINARY: &str = "HALFSPACE_BINARY";
 /// Longest time from power-on to the first frame, in milliseconds.
 const START: u64 = 300;
 /// Longest time that a frame may take, in milliseconds.
@@ -18,13 +20,26 @@ pub fn image() -> Image {
 
 /// Returns the image as the card has it, a raw binary.
 pub fn binary() -> Image {
-    named("HALFSPACE_BINARY")
+    named(BINARY)
+}
+
+/// Returns the raw binary with each of its words as `change` makes it.
+pub fn changed(mut change: impl FnMut(u32) -> u32) -> Image {
+    let path = path(BINARY);
+    let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let words = bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
+    Image::from_binary(words.flat_map(|word| change(word).to_le_bytes()).collect())
+}
+
+fn path(variable: &str) -> PathBuf {
+    let path = std::env::var_os(variable)
+        .unwrap_or_else(|| panic!("{variable} names no image: `cargo xtask test --only simulator` builds it"));
+    PathBuf::from(path)
 }
 
 fn named(variable: &str) -> Image {
-    let path = std::env::var_os(variable)
-        .unwrap_or_else(|| panic!("{variable} names no image: `cargo xtask test --only simulator` builds it"));
-    Image::read(Path::new(&path)).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    let path = path(variable);
+    Image::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// The board, and how much of its console was read.

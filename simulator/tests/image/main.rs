@@ -4,8 +4,10 @@
 
 mod board;
 mod bridges;
+mod caches;
 mod configuration;
 mod fpga_faults;
+mod pad;
 mod resets;
 mod start;
 mod stops;
