@@ -123,7 +123,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
         }
         self.poll_link();
         if let Some(count) = self.hush.kept_back(self.board.ticks()) {
-            let _ = writeln!(self.board.console(), "and {count} more complaints of the link and the controllers");
+            let _ = writeln!(self.board.console(), "{count} more complaints of the link or the controllers");
         }
         if self.stepping {
             self.board.sleep();
@@ -293,9 +293,11 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     /// Says on the console what came in wrong, unless it has just complained: a line takes as long as half a frame, and
     /// noise can bring thousands a second.
     fn complain(&mut self, what: fmt::Arguments<'_>) {
-        if self.hush.may_speak(self.board.ticks()) {
-            let _ = writeln!(self.board.console(), "{what}");
-        }
+        let Some(before) = self.hush.speak(self.board.ticks()) else { return };
+        let _ = match before {
+            0 => writeln!(self.board.console(), "{what}"),
+            _ => writeln!(self.board.console(), "{what} ({before} more before)"),
+        };
     }
 
     fn send(&mut self, message: &BoardMessage) {

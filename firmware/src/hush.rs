@@ -17,15 +17,15 @@ impl Hush {
         Self { second: ticks_per_second, spoke: None, kept_back: 0 }
     }
 
-    /// Whether a complaint may be made now; one that may not is counted.
-    pub fn may_speak(&mut self, now: u64) -> bool {
-        let may = self.is_over(now);
-        if may {
+    /// Asks for a complaint to be made now. Returns how many were kept back since the last; `None` keeps this one back,
+    /// too.
+    pub fn speak(&mut self, now: u64) -> Option<u32> {
+        if self.is_over(now) {
             self.spoke = Some(now);
-        } else {
-            self.kept_back = self.kept_back.saturating_add(1);
+            return Some(core::mem::take(&mut self.kept_back));
         }
-        may
+        self.kept_back = self.kept_back.saturating_add(1);
+        None
     }
 
     /// Returns how many were kept back, once their second is over; `None` when there is nothing to tell yet.
@@ -48,10 +48,10 @@ mod tests {
     #[test]
     fn one_a_second_speaks_and_the_others_are_counted() {
         let mut hush = Hush::new(1_000);
-        assert_eq!([0, 1, 2, 999].map(|now| hush.may_speak(now)), [true, false, false, false]);
+        assert_eq!([0, 1, 2, 999].map(|now| hush.speak(now)), [Some(0), None, None, None]);
         assert_eq!([hush.kept_back(999), hush.kept_back(1_000), hush.kept_back(1_001)], [None, Some(3), None]);
-        assert!(!hush.may_speak(1_500), "the count was a line, too");
-        assert!(hush.may_speak(2_000));
-        assert_eq!(hush.kept_back(5_000), Some(1));
+        assert_eq!(hush.speak(1_500), None, "the count was a line, too");
+        assert_eq!(hush.speak(2_000), Some(1));
+        assert_eq!(hush.kept_back(5_000), None);
     }
 }

@@ -132,11 +132,17 @@ impl Board {
     /// Returns how often the HPS LED goes on in a round of its flashes, two seconds.
     #[track_caller]
     pub fn flashes(&mut self) -> usize {
+        self.flashes_in(2_000)
+    }
+
+    /// Returns how often the HPS LED goes on in so many milliseconds.
+    #[track_caller]
+    pub fn flashes_in(&mut self, time: u64) -> usize {
         // The console's line ends first.
         self.passes(30);
         let mut lit = self.machine.hardware(|hardware| hardware.hps_led());
         let mut flashes = 0;
-        for _ in 0..200 {
+        for _ in 0..time / 10 {
             self.passes(10);
             let now = self.machine.hardware(|hardware| hardware.hps_led());
             flashes += usize::from(now && !lit);

@@ -1,6 +1,7 @@
 //! The way to the FPGA.
 
 use crate::board::{Board, image};
+use controls::serial;
 use firmware::link::{self, HostMessage};
 use simulator::PowerOn;
 use simulator::devices::ResetCause;
@@ -40,5 +41,23 @@ fn a_design_that_goes_is_not_touched_and_one_that_comes_is_drawn_with() {
     let run = link::encode(link::HOST_MESSAGE, &HostMessage::Run, &mut buffer).unwrap().to_vec();
     board.machine.send(&run);
     board.passes(50);
+    board.frames(3);
+}
+
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn a_design_that_goes_while_the_console_is_written_to_is_not_touched() {
+    let mut board = Board::draws();
+    // H, twice: the legend, which takes longer than the UART's FIFO holds.
+    let mut buffer = [0; 256];
+    for keys in [[0; 8], [0, 0, 0x0B, 0, 0, 0, 0, 0]] {
+        let frame = serial::encode(serial::kind::KEYBOARD, &keys, &mut buffer).unwrap();
+        board.machine.send(frame);
+    }
+    board.says(200, "keys             pad");
+    board.machine.set_fpga_configured(false);
+    board.says(300, "the FPGA's design is gone: bridges closed");
+    board.machine.set_fpga_configured(true);
+    board.says(100, "bridges open");
     board.frames(3);
 }

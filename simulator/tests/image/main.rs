@@ -7,6 +7,7 @@ mod bridges;
 mod caches;
 mod configuration;
 mod fpga_faults;
+mod line;
 mod pad;
 mod resets;
 mod start;

@@ -1,6 +1,7 @@
 //! What ends a run, is told at the next start, and is not repeated for ever.
 
-use crate::board::Board;
+use crate::board::{Board, image};
+use simulator::PowerOn;
 use simulator::devices::ResetCause;
 
 /// The watchdog's time, and some more, in milliseconds.
@@ -34,5 +35,40 @@ fn a_fault_is_reported_and_the_third_in_a_row_ends_it() {
     }
     board.machine.jump(HOLE);
     board.says(200, "it happened too often: reset the board by hand");
-    board.passes(100);
+    // Ten a second.
+    assert!((2..=3).contains(&board.flashes_in(250)));
+}
+
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn the_third_bite_in_a_row_waits_for_a_person_or_a_new_design() {
+    let mut board = Board::connected();
+    for count in 1..=3 {
+        board.machine.hang();
+        board.resets(WATCHDOG, ResetCause::L4Watchdog(0));
+        board.says(100, &format!("the main loop stopped ({count} in a row)"));
+        if count < 3 {
+            board.connects();
+        }
+    }
+    board.says(100, "waiting: press the HPS key, or configure the FPGA anew");
+    board.machine.set_fpga_configured(false);
+    board.says(100, "FPGA not configured");
+    board.machine.set_fpga_configured(true);
+    board.first_frame();
+}
+
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn an_fpga_that_is_configured_while_the_program_waits_for_a_person_is_used() {
+    let mut board = Board::start(PowerOn::new(image()));
+    board.machine.hardware(|hardware| hardware.fpga.faults.hangs = true);
+    board.passes(200);
+    board.machine.set_fpga_configured(false);
+    board.machine.hardware(|hardware| hardware.fpga.faults.hangs = false);
+    board.resets(WATCHDOG, ResetCause::L4Watchdog(0));
+    board.says(100, "waiting: press the HPS key, or configure the FPGA anew");
+    board.passes(300);
+    board.machine.set_fpga_configured(true);
+    board.first_frame();
 }
