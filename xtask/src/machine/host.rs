@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::marker::PhantomData;
 
-use firmware::app::{Application, Memory};
+use firmware::app::{Application, Memory, Prepared};
 use firmware::board::Board;
 use firmware::intake::Intake;
 use fpga_regs::{Renderer, Timeouts};
@@ -134,7 +134,7 @@ fn start<R>(
     mesh: Option<&'static [u8]>,
     work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>,
 ) -> anyhow::Result<R> {
-    let board = HostBoard {
+    let mut board = HostBoard {
         of_model: PhantomData,
         incoming: VecDeque::new(),
         outgoing: VecDeque::new(),
@@ -143,6 +143,7 @@ fn start<R>(
     };
     let renderer = Renderer::new(model.clone(), NoWait, Timeouts::default())?;
     let mut memory = Box::<Memory>::default();
-    let application = Application::new(board, renderer, &mut memory)?;
+    let prepared = Prepared::new(&mut board, &mut memory)?;
+    let application = Application::new(board, renderer, prepared);
     work(&mut Host { application, model })
 }
