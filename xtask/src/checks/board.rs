@@ -27,7 +27,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const FAILED: i32 = 101;
 
 /// The demonstration session gives the same frames in QEMU, in this process, and in the golden file.
-pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn demonstration(state: &State) -> anyhow::Result<()> {
     let parts = session::demo()?;
     let golden = golden(golden::DEMO)?;
     let remedy = "if the change is wanted, look at the pictures of `cargo xtask demo`, then run \
@@ -47,7 +47,7 @@ pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
 }
 
 /// The same on the Cortex-A7, with another display, timer and interrupt controller.
-pub(super) fn demonstration_on_raspi2b(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn demonstration_on_raspi2b(state: &State) -> anyhow::Result<()> {
     let golden = golden(golden::DEMO)?;
     let mut machine = state.bootable(Board::Raspi2b)?.start(&state.folder("demo-raspi2b"))?;
     let played = demo::play(&mut machine, &session::demo()?, &state.progress)?;
@@ -56,7 +56,7 @@ pub(super) fn demonstration_on_raspi2b(state: &mut State) -> anyhow::Result<()> 
 }
 
 /// The pictures of the five systems are the same on QEMU's Cortex-A9, in this process and in the golden file.
-pub(super) fn seeds(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn seeds(state: &State) -> anyhow::Result<()> {
     let (golden, parts) = (golden(golden::SEEDS)?, session::seeds()?);
     let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
     golden.check(&Golden::from(&here.report)).context("on this computer")?;
@@ -72,7 +72,7 @@ pub(super) fn seeds(state: &mut State) -> anyhow::Result<()> {
 
 /// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's Cortex-A9, in this
 /// process and in the golden file.
-pub(super) fn game(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn game(state: &State) -> anyhow::Result<()> {
     let (golden, parts) = (Record::read()?, session::game()?);
     let here = Record::of(&parts)?;
     golden.check(&here).context("on this computer")?;
@@ -89,7 +89,7 @@ fn golden(file: &str) -> anyhow::Result<Golden> {
 }
 
 /// Every byte of a report is lost once; the firmware drops what it spoils and goes on.
-pub(super) fn lossy_line(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn lossy_line(state: &State) -> anyhow::Result<()> {
     let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("lossy-line"))?;
     let mut buffer = [0; FRAME_SIZE_MAXIMUM];
     let report = DualShock3Report::default().to_bytes();
@@ -116,7 +116,7 @@ pub(super) fn lossy_line(state: &mut State) -> anyhow::Result<()> {
 }
 
 /// Every kind of fault is reported on the console and ends QEMU with the status of a failure.
-pub(super) fn faults(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn faults(state: &State) -> anyhow::Result<()> {
     let elf = build_firmware(Board::VexpressA9, &["fault-injection"], state.toolchain()?, &state.progress)?;
     // A copy, as the next build of the board overwrites the file.
     let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;

@@ -23,7 +23,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A board that has a large mesh file in its memory draws the same as this computer; of a broken file it says what is
 /// wrong, and shows what is built in.
-pub(super) fn in_memory(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn in_memory(state: &State) -> anyhow::Result<()> {
     let bytes = compile(&torus(), &Options::default())?.bytes;
     let here = with_host_and_mesh(bytes.clone(), |machine| first_frame(machine))?;
     ensure!(here.triangles_submitted == 2 * RINGS * SIDES, "{} triangles submitted here", here.triangles_submitted);
