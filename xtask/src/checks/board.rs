@@ -1,6 +1,7 @@
 //! Steps that run the firmware in QEMU.
 
 use std::fs;
+use std::path::Path;
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
@@ -13,10 +14,12 @@ use crate::boot::Bootable;
 use crate::cli::Board;
 use crate::demo;
 use crate::firmware_build::build_firmware;
+use crate::found_mesh;
 use crate::golden::{self, Golden};
-use crate::machine::{Link, with_host};
+use crate::machine::{Emulated, Link, with_host, with_host_and_mesh};
 use crate::paths::{TemporaryFolder, workspace_root};
-use crate::picture::read_png;
+use crate::picture::{Picture, read_png};
+use crate::qemu::ICOUNT_SHIFT;
 use crate::recorded_game::{self, Record};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
 use crate::session;
@@ -61,13 +64,42 @@ pub(super) fn seeds(state: &State) -> anyhow::Result<()> {
     let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
     golden.check(&Golden::from(&here.report)).context("on this computer")?;
     for (path, picture) in golden::pictures(&here) {
-        let committed = read_png(&workspace_root().join(&path))?;
-        ensure!(committed == *picture, "{path} shows something else: write it with `cargo xtask generate --golden`");
+        is_committed(&path, picture)?;
     }
     let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("seeds"))?;
     let there = demo::play(&mut machine, &parts, &state.progress)?;
     machine.quit()?;
-    golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")
+    golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")?;
+
+    let (golden, parts, mesh) = (self::golden(golden::FOUND)?, found_mesh::parts(), found_mesh::file()?);
+    let found = with_host_and_mesh(mesh.clone(), |machine| demo::play(machine, &parts, &state.progress))?;
+    golden.check(&Golden::from(&found.report)).context("of the model in memory, on this computer")?;
+    if let Some((.., picture)) = found.pictures.last() {
+        is_committed(found_mesh::PICTURE, picture)?;
+    }
+    is_committed(golden::SHEET, &golden::sheet(&here, &found)?)?;
+    let folder = state.folder("seeds-in-memory");
+    let mut machine = start_with_mesh(state, Board::VexpressA9, &folder, &mesh)?;
+    let there = demo::play(&mut machine, &parts, &state.progress)?;
+    machine.quit()?;
+    golden.check(&Golden::from(&there.report)).context("of the model in memory, on QEMU's Cortex-A9")
+}
+
+/// Starts a board with a mesh file in its memory.
+pub(super) fn start_with_mesh(state: &State, board: Board, folder: &Path, mesh: &[u8]) -> anyhow::Result<Emulated> {
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let file = folder.join("in-memory.mesh");
+    fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
+    state.bootable(board)?.start_with(folder, |options| {
+        options.icount_shift = Some(ICOUNT_SHIFT);
+        options.mesh = Some(file);
+    })
+}
+
+fn is_committed(path: &str, picture: &Picture) -> anyhow::Result<()> {
+    let committed = read_png(&workspace_root().join(path))?;
+    ensure!(committed == *picture, "{path} shows something else: write it with `cargo xtask generate --golden`");
+    Ok(())
 }
 
 /// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's Cortex-A9, in this
