@@ -2,9 +2,9 @@
 
 use crate::endpoint::{Endpoint, Kind, Route};
 use crate::hardware::Buffer;
-use crate::outcome::{FRAME_NUMBERS, LAST_COMPLETE_SPLIT, Verdict, frames_since};
+use crate::outcome::{FIRST_COMPLETE_SPLIT, FRAME_NUMBERS, LAST_COMPLETE_SPLIT, Verdict, frames_since};
 use crate::port::Phase;
-use crate::registers::{Hcchar, Hcdma, Hcint, Hcintmsk, Hcsplt, Hctsiz, Hfnum};
+use crate::registers::{Hcchar, Hcdma, Hcint, Hcsplt, Hctsiz, Hfnum};
 use crate::slot::{Activity, Fate, Slot, Split};
 use crate::state::State;
 use crate::timing::{HALT_LIMIT_US, SPLIT_DRAIN_US};
@@ -23,19 +23,28 @@ const WHOLE_PAYLOAD: u8 = 3;
 /// Every bit of HCINT.
 const ALL_REASONS: u32 = 0x3fff;
 
-/// What comes first when several steps are due.
+/// Whether a pipe's next step can go to a channel.
 #[derive(Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    /// No, and the next (micro)frame changes nothing in that.
+    Later,
+    /// No, but maybe in the next (micro)frame.
+    NextFrame,
+    /// Yes: what comes first, and the (micro)frame that it goes out in.
+    Now(Rank, u16),
+}
+
+/// What comes first when several steps are due.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
-    /// Complete splits whose start split is this many microframes old, oldest first: they keep the order of their
-    /// start splits (USB 2.0 §11.18.8, as Linux reads it).
+    /// Complete splits, those whose start split is oldest first, by the microframes that they have left: they keep the
+    /// order of their start splits (USB 2.0 §11.18.8, as Linux reads it).
     Complete(u16),
-    /// Interrupt endpoints.
-    Periodic,
+    /// Interrupt endpoints, those with the shortest interval first: they can wait least for the next frame.
+    Periodic(u32),
     /// Control and bulk.
     Rest,
 }
-
-const RANKS: [Rank; 5] = [Rank::Complete(4), Rank::Complete(3), Rank::Complete(2), Rank::Periodic, Rank::Rest];
 
 impl State<'_> {
     /// A channel's HCINT holds something.
@@ -48,11 +57,13 @@ impl State<'_> {
         if !interrupts.halted() {
             return;
         }
-        let left: Hctsiz = self.hardware.read_channel(channel);
         let Some(index) = self.channels[usize::from(channel)].take() else { return };
         let Some(slot) = &mut self.slots[index] else { return };
         let (Activity::Running { program, .. } | Activity::Halting { program, .. }) = slot.activity else { return };
-        if program.input {
+        // Of a split that moved nothing, nothing is left to know.
+        let moved = interrupts.complete() || !slot.endpoint.splits();
+        let left = if moved { self.hardware.read_channel(channel) } else { Hctsiz::default() };
+        if program.input && moved {
             self.hardware.invalidate(index, program.buffer, program.bytes);
         }
         match slot.halted(program, interrupts, left, now) {
@@ -60,64 +71,101 @@ impl State<'_> {
             Verdict::Exchange => {
                 slot.effort.deadline = None;
                 slot.activity = Activity::Exchange;
+                self.stirred = true;
             }
             Verdict::End(result) => self.end(index, result),
         }
     }
 
-    /// Starts every step that is due, as far as there are channels.
-    pub(crate) fn launch(&mut self, now: u64) {
-        if self.phase != Phase::Ready {
-            return;
-        }
-        self.give_up_late_splits();
-        let is_due =
-            |slot: &Slot| matches!(slot.activity, Activity::Waiting { from } if from <= now + slot.endpoint.lead_us());
-        if !self.slots.iter().flatten().any(is_due) {
-            return self.watch_frames(now);
-        }
-        for rank in RANKS {
-            for index in 0..PIPES {
-                let Some(frame) = self.turn_of(index, rank, now) else { continue };
-                let free = self.channels.iter().take(self.channel_count).position(Option::is_none);
-                let Some(channel) = free else { continue };
-                self.start(index, channel as u8, frame, now);
+    /// Finds the endpoints behind translators whose turn comes before the next poll. Only here, once a millisecond, so
+    /// that frames are watched no longer than it takes to come to the microframes that start splits go out in.
+    pub(crate) fn call_turns(&mut self, now: u64) {
+        for slot in self.slots.iter_mut().flatten() {
+            if let Activity::Waiting { from } = &mut slot.activity
+                && slot.endpoint.periodic()
+                && *from <= now + slot.endpoint.lead_us()
+            {
+                *from = (*from).min(now);
             }
         }
-        self.watch_frames(now);
     }
 
-    /// Whether a pipe's next step is due and of this rank: the (micro)frame that it goes out in.
-    fn turn_of(&mut self, index: usize, rank: Rank, now: u64) -> Option<u16> {
-        let slot = self.slots[index].as_ref()?;
-        let Activity::Waiting { from } = slot.activity else { return None };
-        let endpoint = &slot.endpoint;
-        let lead = if endpoint.periodic() { endpoint.lead_us() } else { 0 };
+    /// Starts every step that is due, as far as there are channels, and lets the start of the next (micro)frame
+    /// interrupt if somebody waits for that.
+    pub(crate) fn launch(&mut self, now: u64) {
+        if self.phase != Phase::Ready {
+            return self.watch_frames(false);
+        }
+        // All steps of one visit go by one look at the (micro)frame. If the next one begins before the step is handed
+        // over, the core sends it in that one, at once: what goes out in the present (micro)frame, and what waits for
+        // the next, is all that HCCHAR.ODDFRM says (Linux, `hcd.c`, dwc2_hc_set_even_odd_frame).
+        let mut frame = None;
+        loop {
+            let mut first: Option<(Rank, u16, usize)> = None;
+            let mut watch = false;
+            for index in 0..PIPES {
+                match self.turn_of(index, &mut frame, now) {
+                    Turn::Now(rank, frame) if first.is_none_or(|(other, ..)| rank < other) => {
+                        first = Some((rank, frame, index));
+                    }
+                    turn => watch |= turn == Turn::NextFrame,
+                }
+            }
+            let free = self.channels.iter().take(self.channel_count).position(Option::is_none);
+            let (Some((_, frame, index)), Some(channel)) = (first, free) else { return self.watch_frames(watch) };
+            self.start(index, channel as u8, frame, now);
+        }
+    }
+
+    /// Whether a pipe's next step can go to a channel; `seen` is the (micro)frame, once somebody needs to know it.
+    fn turn_of(&mut self, index: usize, seen: &mut Option<u16>, now: u64) -> Turn {
+        let Some(slot) = &self.slots[index] else { return Turn::Later };
+        let Activity::Waiting { from } = slot.activity else { return Turn::Later };
+        let (endpoint, split) = (slot.endpoint, slot.effort.split);
+        let lead = if endpoint.periodic() && !endpoint.splits() { endpoint.lead_us() } else { 0 };
         if from > now + lead || self.has_rival(index, slot) {
-            return None;
+            return Turn::Later;
         }
         if !endpoint.periodic() && !endpoint.paced() {
-            return (rank == Rank::Rest).then_some(0);
+            return Turn::Now(Rank::Rest, 0);
         }
-        let frame = self.hardware.read::<Hfnum>().number();
+        let frame = match *seen {
+            Some(frame) => frame,
+            None => *seen.insert(self.hardware.read::<Hfnum>().number()),
+        };
         if !endpoint.periodic() {
             let taken = slot.last_frame == Some(frame)
                 || endpoint.route == Route::Preamble && self.preamble_frame == Some(frame);
-            return (rank == Rank::Rest && !taken).then_some(frame);
+            return if taken { Turn::NextFrame } else { Turn::Now(Rank::Rest, frame) };
         }
         let next = (frame + 1) % FRAME_NUMBERS;
-        match (endpoint.route, slot.effort.split) {
-            (Route::Split { hub, .. }, Split::Complete { start }) => {
-                let due = rank == Rank::Complete(frames_since(next, start));
-                (due && !self.runs_older_split(hub, start)).then_some(next)
-            }
+        match (endpoint.route, split) {
+            (Route::Split { hub, .. }, Split::Complete { start }) => match frames_since(next, start) {
+                0..FIRST_COMPLETE_SPLIT => Turn::NextFrame,
+                age @ FIRST_COMPLETE_SPLIT..=LAST_COMPLETE_SPLIT if !self.runs_older_split(hub, start) => {
+                    Turn::Now(Rank::Complete(LAST_COMPLETE_SPLIT - age), next)
+                }
+                FIRST_COMPLETE_SPLIT..=LAST_COMPLETE_SPLIT => Turn::Later,
+                _ => {
+                    self.give_up_split(index);
+                    Turn::Later
+                }
+            },
             (Route::Split { hub, .. }, Split::Start) => {
                 let taken = |other: &Slot| other.last_start == Some(next) && other.endpoint.hub() == Some(hub);
-                let free = next % 8 <= LAST_START_SPLIT && !self.slots.iter().flatten().any(taken);
-                (rank == Rank::Periodic && free).then_some(next)
+                if next % 8 > LAST_START_SPLIT {
+                    Turn::NextFrame
+                } else if slot.last_start.is_some_and(|start| start / 8 == next / 8) {
+                    // It had its turn in this frame. A later poll may do without the frames in between.
+                    Turn::Later
+                } else if self.slots.iter().flatten().any(taken) {
+                    Turn::NextFrame
+                } else {
+                    Turn::Now(Rank::Periodic(endpoint.interval_us), next)
+                }
             }
-            (Route::Preamble, _) if self.preamble_frame == Some(next) => None,
-            _ => (rank == Rank::Periodic).then_some(next),
+            (Route::Preamble, _) if self.preamble_frame == Some(next) => Turn::NextFrame,
+            _ => Turn::Now(Rank::Periodic(endpoint.interval_us), next),
         }
     }
 
@@ -151,25 +199,14 @@ impl State<'_> {
                 .any(|(at, other)| at != index && other.as_ref().is_some_and(|other| same(other) && begun(other)))
     }
 
-    /// Periodic splits whose last microframe has passed begin anew at the endpoint's next turn.
-    fn give_up_late_splits(&mut self) {
-        for index in 0..PIPES {
-            let Some(slot) = &mut self.slots[index] else { continue };
-            let (Activity::Waiting { .. }, Split::Complete { start }) = (slot.activity, slot.effort.split) else {
-                continue;
-            };
-            if !slot.endpoint.periodic() {
-                continue;
-            }
-            let next = self.hardware.read::<Hfnum>().number() + 1;
-            if frames_since(next, start) > LAST_COMPLETE_SPLIT {
-                slot.effort.split = Split::Start;
-                slot.activity = Activity::Waiting { from: slot.next_turn };
-                let fate = slot.effort.fate;
-                if fate != Fate::Wanted {
-                    self.end(index, fate.result());
-                }
-            }
+    /// A periodic split whose last microframe has passed begins anew at the endpoint's next turn.
+    fn give_up_split(&mut self, index: usize) {
+        let Some(slot) = &mut self.slots[index] else { return };
+        slot.effort.split = Split::Start;
+        slot.activity = Activity::Waiting { from: slot.next_turn };
+        let fate = slot.effort.fate;
+        if fate != Fate::Wanted {
+            self.end(index, fate.result());
         }
     }
 
@@ -183,7 +220,7 @@ impl State<'_> {
         let program = slot.effort.transfer.program(&endpoint, slot.toggle);
         let complete = matches!(slot.effort.split, Split::Complete { .. });
         if endpoint.periodic() && !complete {
-            slot.next_turn = now + endpoint.lead_us() + u64::from(endpoint.interval_us) - endpoint.lead_us() / 4;
+            slot.next_turn = now + endpoint.lead_us() + u64::from(endpoint.interval_us) - endpoint.slack_us();
             slot.last_start = Some(frame);
         }
         slot.last_frame = Some(frame);
@@ -226,7 +263,6 @@ impl State<'_> {
         let address = self.hardware.bus_address(index, program.buffer);
         let core = &mut self.hardware;
         core.write_channel(channel, Hcint(ALL_REASONS));
-        core.write_channel(channel, Hcintmsk::default().with_halted(true).with_bus_error(true));
         core.write_channel(channel, split);
         core.write_channel(channel, size);
         core.write_channel(channel, Hcdma(address));

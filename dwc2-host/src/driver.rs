@@ -11,7 +11,7 @@ use embassy_usb_driver::{EndpointInfo, EndpointType};
 use crate::hardware::Core;
 use crate::port::Phase;
 use crate::state::State;
-use crate::{Board, Config, Fault, Pipe, TtClear};
+use crate::{Board, Config, Fault, Pipe, SpeedLimit, TtClear};
 
 /// One DWC2 core and all that the driver knows of it.
 ///
@@ -33,12 +33,18 @@ impl<'d> Dwc2<'d> {
 
     /// Handles the core's interrupt and wakes who waited for it; never waits.
     pub fn on_interrupt(&self) {
-        self.poll();
+        self.service(false);
     }
 
     /// Does what is due by the clock and by the core, and wakes who waited for it; never waits. Call it at 1 kHz.
     pub fn poll(&self) {
-        self.with(State::service).wake();
+        self.service(true);
+    }
+
+    fn service(&self, poll: bool) {
+        if let Some(wakes) = self.with(|state| state.service(poll)) {
+            wakes.wake();
+        }
     }
 
     /// Takes the last fault, if there was one since the last call. The driver mends it by itself.
@@ -50,6 +56,13 @@ impl<'d> Dwc2<'d> {
     /// hub's transaction translator failed.
     pub fn take_tt_clear(&self, hub: u8) -> Option<TtClear> {
         self.with(|state| state.tt_clears.take(hub))
+    }
+
+    /// Limits the root port's speed from now on. A change ends all transfers, turns the port off and starts the core
+    /// anew, which takes a second; devices go and come again.
+    pub fn limit_speed(&self, limit: SpeedLimit) {
+        self.with(|state| state.limit_speed(limit));
+        self.poll();
     }
 
     /// Ends all transfers, turns the port's power and the interrupts off. [`start`](Dwc2::start) undoes it.

@@ -128,4 +128,11 @@ impl Endpoint {
     pub(crate) fn lead_us(&self) -> u64 {
         if self.high_speed { MICROFRAME_US } else { FRAME_US }
     }
+
+    /// How much sooner than its interval has passed a periodic transaction may be handed to the core. Behind a
+    /// translator it waits for its microframe up to half a frame after a poll, and the next turn is found by a poll too;
+    /// it is in another frame in any case.
+    pub(crate) fn slack_us(&self) -> u64 {
+        if self.splits() { 5 * MICROFRAME_US } else { self.lead_us() / 4 }
+    }
 }

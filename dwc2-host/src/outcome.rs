@@ -10,7 +10,9 @@ use crate::transfer::{Next, Program, Stage};
 const STRIKES: u8 = 3;
 /// NAKs in a row after which a split pauses: Linux, `hcd_intr.c`.
 const NAKS_BEFORE_PAUSE: u8 = 3;
-/// The last microframe for a complete split, counted from the start split (USB 2.0 §11.18.4; Linux's 4 microframes).
+/// The first microframe for a complete split, counted from the start split (EHCI 1.0 §4.12.2).
+pub(crate) const FIRST_COMPLETE_SPLIT: u16 = 2;
+/// The last one counted from the start split (USB 2.0 §11.18.4; Linux's 4 microframes).
 pub(crate) const LAST_COMPLETE_SPLIT: u16 = 4;
 /// HCTSIZ's packet identifier after part of a packet came (USB 2.0 §8.4.4).
 const MDATA: u8 = 3;
@@ -75,8 +77,8 @@ impl Slot {
             Outcome::Babble => Verdict::End(Err(TransferError::Babble)),
             Outcome::NoAnswer => self.strike(program, left, now),
             Outcome::Nyet | Outcome::Nak | Outcome::Ack => self.handshake(outcome, program, left, now),
-            // A periodic transaction that missed its frame; nothing went out.
-            Outcome::FrameOverrun | Outcome::Unknown if self.endpoint.periodic() => self.again(now),
+            // A periodic transaction that missed its frame; nothing went out. A complete split may have another frame.
+            Outcome::FrameOverrun | Outcome::Unknown if self.endpoint.periodic() => Verdict::Wait(now),
             // The packet was a repeated one and was dropped (USB 2.0 §8.6.4): the next one is due.
             Outcome::WrongToggle if self.endpoint.periodic() => self.again(self.next_turn),
             Outcome::FrameOverrun | Outcome::Unknown | Outcome::WrongToggle => self.strike(program, left, now),

@@ -164,6 +164,7 @@ impl State<'_> {
             _ if slot.endpoint.periodic() => Activity::Waiting { from: slot.next_turn.max(now) },
             _ => Activity::Waiting { from: now },
         };
+        self.call_turns(now);
         self.launch(now);
         Poll::Ready(Ok(()))
     }

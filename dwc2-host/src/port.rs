@@ -62,18 +62,25 @@ impl Phase {
 }
 
 impl State<'_> {
-    /// Takes the core and the port as far as they go now.
-    pub(crate) fn advance(&mut self, now: u64) {
+    /// Takes the core and the port as far as they go now. The port is looked at when there is news of it, and at
+    /// the end of a phase that has one.
+    pub(crate) fn advance(&mut self, now: u64, mut news: bool) {
         loop {
             let before = self.phase;
-            if before.started() {
-                self.watch_port(now);
-            } else {
+            let over = match before {
+                Phase::Empty | Phase::Ready => false,
+                Phase::Quieten => true,
+                _ => now >= self.phase_end,
+            };
+            if !before.started() {
                 self.advance_start(now);
+            } else if news || over {
+                self.watch_port(now);
             }
             if self.phase == before {
                 break;
             }
+            news = true;
         }
     }
 
@@ -206,6 +213,16 @@ impl State<'_> {
         }
         self.lose_device();
         self.phase = Phase::Off;
+    }
+
+    /// Takes another speed limit: the port goes off, and the core is started anew after the pause that follows a fault.
+    pub(crate) fn limit_speed(&mut self, limit: SpeedLimit) {
+        if core::mem::replace(&mut self.config.speed_limit, limit) == limit || self.phase == Phase::Off {
+            return;
+        }
+        let now = self.hardware.now();
+        self.shut_down();
+        self.enter(Phase::Failed, now + FAULT_PAUSE_US);
     }
 
     /// High speed is out of the question.

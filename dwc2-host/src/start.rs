@@ -4,7 +4,7 @@ use crate::Fault;
 use crate::port::Phase;
 use crate::registers::{
     Gahbcfg, Ghwcfg2, Ghwcfg3, Gintsts, Gnptxfsiz, Gotgctl, Grstctl, Grxfsiz, Gsnpsid, Gusbcfg, Haintmsk, Hcchar, Hcfg,
-    Hcint, Hptxfsiz, Pcgctl,
+    Hcint, Hcintmsk, Hptxfsiz, Pcgctl,
 };
 use crate::state::{CHANNELS, State};
 use crate::timing::{FORCE_HOST_LIMIT_US, FORCE_HOST_US, SELF_CLEARING_LIMIT_US};
@@ -181,6 +181,7 @@ impl State<'_> {
     fn open(&mut self) {
         for channel in 0..self.channel_count as u8 {
             self.hardware.write_channel(channel, Hcint(ALL_INTERRUPTS));
+            self.hardware.write_channel(channel, Hcintmsk::default().with_halted(true).with_bus_error(true));
         }
         let all = (u32::MAX >> (32 - CHANNELS.min(self.channel_count))) as u16;
         self.hardware.write(Haintmsk::default().with_channels(all));

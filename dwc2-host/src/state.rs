@@ -9,7 +9,6 @@ use crate::hardware::Core;
 use crate::port::Phase;
 use crate::registers::{Gintmsk, Gintsts, Haint};
 use crate::slot::{Activity, Fate, Slot};
-use crate::timing::LOOK_AHEAD_US;
 use crate::tt_clear::{TtClear, TtClears};
 use crate::{Config, Fault, PIPES, TransferError};
 
@@ -105,6 +104,8 @@ pub(crate) struct State<'d> {
     pub(crate) tt_clears: TtClears,
     /// GINTMSK lets start-of-frame interrupts through.
     frame_interrupts: bool,
+    /// Somebody who waits may go on.
+    pub(crate) stirred: bool,
 }
 
 impl<'d> State<'d> {
@@ -125,27 +126,30 @@ impl<'d> State<'d> {
             preamble_frame: None,
             tt_clears: TtClears::default(),
             frame_interrupts: false,
+            stirred: false,
         }
     }
 
-    /// Takes what the core reports, does what is due, and says whom to wake.
-    pub(crate) fn service(&mut self) -> Wakes {
+    /// Takes what the core reports, does what is due, and says whom to wake. By `poll` it does so too for what is due
+    /// by the clock.
+    pub(crate) fn service(&mut self, poll: bool) -> Option<Wakes> {
         let now = self.hardware.now();
-        if self.phase.started() {
-            self.take_interrupts(now);
+        let news = self.phase.started() && self.take_interrupts(now);
+        self.advance(now, news);
+        if poll {
+            self.check_deadlines(now);
+            self.call_turns(now);
         }
-        self.advance(now);
-        self.check_deadlines(now);
         self.launch(now);
         self.wakes()
     }
 
-    fn take_interrupts(&mut self, now: u64) {
+    /// Tells whether there is news of the port.
+    fn take_interrupts(&mut self, now: u64) -> bool {
         let status: Gintsts = self.hardware.read();
-        if status.start_of_frame() || status.disconnect() {
-            self.hardware.write(
-                Gintsts::default().with_start_of_frame(status.start_of_frame()).with_disconnect(status.disconnect()),
-            );
+        let frame = status.start_of_frame() && self.frame_interrupts;
+        if frame || status.disconnect() {
+            self.hardware.write(Gintsts::default().with_start_of_frame(frame).with_disconnect(status.disconnect()));
         }
         if status.channel() {
             let waiting = self.hardware.read::<Haint>().channels();
@@ -153,26 +157,32 @@ impl<'d> State<'d> {
                 self.channel_interrupt(channel, now);
             }
         }
+        status.port() || status.disconnect()
     }
 
     /// Which interrupts the core may raise from now on.
     pub(crate) fn set_interrupts(&mut self, frames: bool) {
         self.frame_interrupts = frames;
+        if frames {
+            // Those that began before are no news.
+            self.hardware.write(Gintsts::default().with_start_of_frame(true));
+        }
         self.hardware.write(
             Gintmsk::default().with_start_of_frame(frames).with_port(true).with_channel(true).with_disconnect(true),
         );
     }
 
-    /// Lets the start of frames interrupt while something is due soon, and not longer.
-    pub(crate) fn watch_frames(&mut self, now: u64) {
-        let soon = |slot: &Slot| matches!(slot.activity, Activity::Waiting { from } if from <= now + LOOK_AHEAD_US);
-        let frames = self.slots.iter().flatten().any(soon);
+    /// Lets the start of frames interrupt, or not.
+    pub(crate) fn watch_frames(&mut self, frames: bool) {
         if frames != self.frame_interrupts {
             self.set_interrupts(frames);
         }
     }
 
-    fn wakes(&mut self) -> Wakes {
+    fn wakes(&mut self) -> Option<Wakes> {
+        if !core::mem::take(&mut self.stirred) && !self.news.any() {
+            return None;
+        }
         let mut wakes = Wakes::default();
         let (event, pipes) = wakes.0.split_first_mut().expect("an array of PIPES + 1");
         if self.news.any() {
@@ -185,7 +195,7 @@ impl<'d> State<'d> {
                 *wake = slot.waker.take();
             }
         }
-        wakes
+        Some(wakes)
     }
 
     /// Ends what every pipe is at; none of them is good for anything any more.
@@ -204,6 +214,7 @@ impl<'d> State<'d> {
 
     /// A transfer is over; its channel is free.
     pub(crate) fn end(&mut self, index: usize, result: Result<usize, TransferError>) {
+        self.stirred = true;
         let Some(slot) = &mut self.slots[index] else { return };
         slot.effort.deadline = None;
         slot.activity = match (slot.effort.fate, result) {

@@ -22,8 +22,6 @@ pub(crate) const FAULT_PAUSE_US: u64 = 1_000_000;
 pub(crate) const SPLIT_DRAIN_US: u64 = 20_000;
 /// Between two tries of a start split that was answered by NAK three times: Linux, `hcd_queue.c`.
 pub(crate) const NAK_PAUSE_US: u64 = 1_000;
-/// The start of a frame interrupts when something is due within this time; a bit more than the 1 ms between two polls.
-pub(crate) const LOOK_AHEAD_US: u64 = 1_500;
 /// A frame, USB 2.0 §8.4.3.1.
 pub(crate) const FRAME_US: u64 = 1_000;
 /// A microframe, USB 2.0 §8.4.3.1.

@@ -1,9 +1,10 @@
 //! The model that stands for all that are found in memory: a knot, whose pictures are golden on every machine.
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use firmware::scene::Scene;
 use models::compile::{Options, compile};
 
+use crate::model;
 use crate::paths::workspace_root;
 use crate::session::ScenePart;
 
@@ -19,7 +20,7 @@ const FRAMES: usize = 20;
 /// # Errors
 /// When the model cannot be read.
 pub fn file() -> anyhow::Result<Vec<u8>> {
-    let model = models::read(&workspace_root().join(SOURCE)).map_err(|error| anyhow!("{error}"))?;
+    let model = model::read(&workspace_root().join(SOURCE))?;
     Ok(compile(&model, &Options::default()).with_context(|| format!("cannot use {SOURCE}"))?.bytes)
 }
 

@@ -19,7 +19,7 @@
 //! | [`simulated`] | the DE1-SoC's simulator, as a program that is started |
 //! | [`verilated`] | the FPGA's design in Verilator, as a program that is started |
 //! | [`prove`], [`yosys`] | theorems about the FPGA's design, proven |
-//! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes |
+//! | [`measure`] | what a vertex, a triangle and a pixel cost; [`code_size`] what the USB code takes, [`usb_cost`] what it does |
 //! | [`fill`] | what more pixel units bring; [`plot`] draws it |
 //! | [`card`] | what goes on the DE1-SoC's SD card |
 //! | [`frame_model`] | how long a frame would take on the board, and what bounds it |
@@ -73,6 +73,7 @@ pub mod simulated;
 pub mod software_fpga;
 pub mod stream;
 pub mod table;
+pub mod usb_cost;
 pub mod verilated;
 pub mod yosys;
 

@@ -14,6 +14,8 @@ use usb_model::memory::CachedMemory;
 use usb_model::violation::{Log, Rule};
 use usb_model::wire::Device;
 
+/// The register that tells the (micro)frame.
+const HFNUM: u32 = 0x408;
 /// Where the DMA memory lies on the bus.
 const BASE: u32 = 0x3000_0000;
 
@@ -44,11 +46,25 @@ pub struct Tamper {
     pub haste: u64,
 }
 
+/// What the driver has cost so far.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Cost {
+    /// Calls: interrupts and polls.
+    pub services: u64,
+    pub reads: u64,
+    pub writes: u64,
+    /// Reads of HFNUM, of all reads.
+    pub frame_reads: u64,
+    /// The most of them in one call.
+    pub frame_reads_most: u64,
+}
+
 /// The core, its memory, and what is done to the accesses.
 pub struct Machine {
     pub core: Core,
     pub memory: CachedMemory,
     pub tamper: Tamper,
+    pub cost: Cost,
 }
 
 impl Machine {
@@ -72,6 +88,8 @@ fn lock(machine: &Mutex<Machine>) -> MutexGuard<'_, Machine> {
 impl Registers for TestBoard {
     fn read_register(&mut self, offset: u32) -> u32 {
         let mut machine = lock(&self.0);
+        machine.cost.reads += 1;
+        machine.cost.frame_reads += u64::from(offset == HFNUM);
         let value = machine.core.read(offset);
         let Some(mut tamper) = machine.tamper.read.take() else { return value };
         let value = tamper(&mut machine, offset, value);
@@ -81,6 +99,7 @@ impl Registers for TestBoard {
 
     fn write_register(&mut self, offset: u32, value: u32) {
         let mut machine = lock(&self.0);
+        machine.cost.writes += 1;
         let Some(mut tamper) = machine.tamper.write.take() else { return machine.write(offset, value) };
         if let Some(value) = tamper(&mut machine, offset, value) {
             machine.write(offset, value);
@@ -167,7 +186,7 @@ impl Rig {
         let log = Log::default();
         let core = Core::new(build, log.clone());
         let memory = CachedMemory::new(BASE, DMA_BYTES, log.clone());
-        let machine = Arc::new(Mutex::new(Machine { core, memory, tamper: Tamper::default() }));
+        let machine = Arc::new(Mutex::new(Machine { core, memory, tamper: Tamper::default(), cost: Cost::default() }));
         let board = Box::leak(Box::new(TestBoard(Arc::clone(&machine))));
         let driver = Box::leak(Box::new(Dwc2::new(board, config)));
         let sleepers = Sleepers::default();
@@ -240,10 +259,10 @@ impl Rig {
             up
         };
         if up {
-            self.driver.on_interrupt();
+            self.call(Dwc2::on_interrupt);
         }
         if self.now() >= next {
-            self.driver.poll();
+            self.call(Dwc2::poll);
             self.next_poll.set(next + (self.now() - next) / 1_000 * 1_000 + 1_000);
             let now = self.now();
             let mut sleepers = self.sleepers.lock().unwrap_or_else(PoisonError::into_inner);
@@ -272,9 +291,22 @@ impl Rig {
             let up = self.interrupts.get() && machine.core.irq();
             drop(machine);
             if up {
-                self.driver.on_interrupt();
+                self.call(Dwc2::on_interrupt);
             }
         }
+    }
+
+    fn call(&self, service: fn(&Dwc2<'static>)) {
+        let before = self.machine().cost.frame_reads;
+        service(self.driver);
+        let cost = &mut self.machine().cost;
+        cost.services += 1;
+        cost.frame_reads_most = cost.frame_reads_most.max(cost.frame_reads - before);
+    }
+
+    /// Lets the polls come so much later from now on.
+    pub fn delay_polls(&self, us: u64) {
+        self.next_poll.set(self.next_poll.get() + us);
     }
 
     /// Lets this many microseconds pass.

@@ -3,11 +3,15 @@
 //! | module | shows |
 //! | --- | --- |
 //! | `times` | how long it takes to the first report, and from a report to the state |
+//! | `cost` | how often the driver runs, and what it asks of the core's registers |
 //! | `swaps` | one device in another's place, at any moment |
+//! | `speed` | the root port held at full speed while everything runs |
 //! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
+mod cost;
 mod rogues;
+mod speed;
 mod swaps;
 mod times;
 

@@ -19,7 +19,6 @@ use crate::golden::{self, Golden};
 use crate::machine::{Emulated, Link, with_host, with_host_and_mesh};
 use crate::paths::{TemporaryFolder, workspace_root};
 use crate::picture::{Picture, read_png};
-use crate::qemu::ICOUNT_SHIFT;
 use crate::recorded_game::{self, Record};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
 use crate::session;
@@ -90,10 +89,7 @@ pub(super) fn start_with_mesh(state: &State, board: Board, folder: &Path, mesh: 
     fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let file = folder.join("in-memory.mesh");
     fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
-    state.bootable(board)?.start_with(folder, |options| {
-        options.icount_shift = Some(ICOUNT_SHIFT);
-        options.mesh = Some(file);
-    })
+    state.bootable(board)?.start_with_mesh(folder, Some(file))
 }
 
 fn is_committed(path: &str, picture: &Picture) -> anyhow::Result<()> {

@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, the FPGA's clocks, and the size of the USB code.
+//! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, the FPGA's clocks, and the USB code.
 
 use std::env;
 use std::fs;
@@ -22,6 +22,7 @@ use crate::session;
 use crate::setup::ensure_firmware_toolchain;
 use crate::simulated::{Build, Design, Simulator};
 use crate::table::{Column, Table};
+use crate::usb_cost;
 use crate::verilated::Verilated;
 
 /// Measures.
@@ -63,6 +64,9 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let frames = frame_model::frames(&measurements)?;
     measurements.extend(area::measurements()?);
     measurements.push(code_size::measurement(&progress)?);
+    let step = progress.step("counting what the USB driver asks of its core");
+    measurements.extend(usb_cost::measurements()?);
+    step.done();
     measurements.extend(frames);
     if arguments.json {
         println!("{}", serde_json::to_string_pretty(&measurements).context("cannot put the numbers into JSON")?);

@@ -1,10 +1,11 @@
 //! `cargo xtask run`: the firmware live, in a window or headless.
 
 use std::fs;
+use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, anyhow, bail, ensure};
+use anyhow::{Context, bail, ensure};
 use firmware::scene::Scene;
 use models::Kind;
 use models::compile::{Options, compile};
@@ -12,6 +13,7 @@ use models::compile::{Options, compile};
 use crate::boot::{self, Bootable, start_with_log};
 use crate::cli::{Board, RunArguments};
 use crate::machine::{Emulated, Link};
+use crate::model;
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
@@ -91,8 +93,7 @@ fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
 /// Returns the model that is named as a `.mesh` file, in `folder` unless it is one already.
 fn mesh_file(arguments: &RunArguments, folder: &Path) -> anyhow::Result<Option<PathBuf>> {
     let Some(path) = &arguments.model else { return Ok(None) };
-    // Its text names the cause already, which the chain of errors would say again.
-    let model = models::read(path).map_err(|error| anyhow!("{error}"))?;
+    let model = model::read(path)?;
     if Kind::of_name(path) == Some(Kind::Mesh) {
         return Ok(Some(path.clone()));
     }
@@ -137,8 +138,15 @@ fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
     }
     let mut devices = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1")];
     if let Some(socket) = &arguments.pad {
-        if !socket.exists() {
-            println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display());
+        match fs::metadata(socket) {
+            Ok(found) => ensure!(
+                found.file_type().is_socket(),
+                "--pad {} is no socket: name one that `cargo xtask pad` listens at, or a file that is not there yet",
+                socket.display()
+            ),
+            Err(_) => {
+                println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display())
+            }
         }
         devices.push(UsbDevice::served(socket, "1.2"));
     }
@@ -212,6 +220,12 @@ mod tests {
         assert_eq!(plugged("--board raspi2b --pad /no/socket --usb-host 054c:0268"), Ok(4));
         let message = plugged("--usb-host 054c:0268").expect_err("vexpress-a9 has none");
         assert!(message.starts_with("vexpress-a9 has no USB: use `--board raspi2b`"), "{message}");
+    }
+
+    #[test]
+    fn a_pads_socket_is_a_socket() {
+        let message = plugged("--board raspi2b --pad Cargo.toml").expect_err("a file");
+        assert!(message.starts_with("--pad Cargo.toml is no socket: "), "{message}");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use usb_model::wire::Speed;
 use super::{Whole, port};
 
 /// A keyboard and a DualShock 3 behind a hub that are there at power-on.
-fn board(limit: SpeedLimit, ports: [usize; 2]) -> (Whole, Shared<Keyboard>) {
+pub fn board(limit: SpeedLimit, ports: [usize; 2]) -> (Whole, Shared<Keyboard>) {
     let whole = Whole::new(Config::new().with_speed_limit(limit));
     let (mut hub, keys) = (Hub::new(Speed::High), Shared::new(keyboard(Form::Boot, Speed::Low)));
     hub.plug(ports[0], Box::new(keys.clone()));
