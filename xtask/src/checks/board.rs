@@ -98,17 +98,24 @@ fn is_committed(path: &str, picture: &Picture) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's Cortex-A9, in this
-/// process and in the golden file.
+/// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's boards, in this process
+/// and in the golden file.
 pub(super) fn game(state: &State) -> anyhow::Result<()> {
     let (golden, parts) = (Record::read()?, session::game()?);
     let here = Record::of(&parts)?;
     golden.check(&here).context("on this computer")?;
-    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("game"))?;
-    let there = recorded_game::play(&mut machine, &parts)?;
-    machine.quit()?;
-    there.check_against(&golden).context("on QEMU's Cortex-A9, but not on this computer")?;
-    println!("score {} in the whole round, {} after {} frames in QEMU", here.score(), there.score(), there.frames);
+    for board in [Board::VexpressA9, Board::Raspi2b] {
+        let mut machine = state.bootable(board)?.start(&state.folder(&format!("game-{board}")))?;
+        let there = recorded_game::play(&mut machine, &parts)?;
+        machine.quit()?;
+        there.check_against(&golden).with_context(|| format!("on {board}, but not on this computer"))?;
+        println!(
+            "score {} in the whole round, {} after {} frames on {board}",
+            here.score(),
+            there.score(),
+            there.frames
+        );
+    }
     Ok(())
 }
 

@@ -72,7 +72,7 @@ fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
         Some(scene) => {
             let mut game = session::game()?;
             game.iter_mut().for_each(|part| part.frames.truncate(GAME_FRAMES));
-            let all = [session::seeds()?, session::demo()?, game].concat();
+            let all = [game, session::seeds()?, session::demo()?].concat();
             Ok(all.into_iter().filter(|part| part.scene == scene).collect())
         }
         None if arguments.seeds => session::seeds(),
