@@ -101,6 +101,7 @@ const CHECKS: &[Check] = &[
     alone("this computer has Verilator", rtl::tools),
     alone("this computer has a Rust toolchain for the boards", |state| state.toolchain().map(drop)),
     alone("this computer has QEMU", |state| state.qemu().map(drop)),
+    alone("this computer has Yosys and Bitwuzla", prove::installed),
     alone("clippy finds nothing", cargo::clippy),
     alone("the tests of every crate pass on this computer", |_| cargo::tests()),
     alone("the generated files are fresh", |_| generated_files()),
