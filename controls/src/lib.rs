@@ -39,7 +39,8 @@
 //!
 //! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
 //! every other control is the viewer's, in `firmware`. The DE1-SoC's own keys and switches do what the
-//! keyboard's do; [`PanelReport`] has the table.
+//! keyboard's do; [`PanelReport`] has the table. Keys typed at a terminal on the serial line are the keyboard's, too
+//! ([`serial::Typed`]).
 //!
 //! # How several sources make one state
 //!

@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use controls::Button;
-use controls::serial::{Decoder, FRAME_SIZE_MAXIMUM, kind};
+use controls::serial::{Decoder, FRAME_SIZE_MAXIMUM, Typed, kind};
 use fpga_regs::{RenderError, Renderer, Wait};
 use geometry::MeshError;
 
@@ -68,6 +68,8 @@ pub struct Application<'a, B: Board, W> {
     decoder: Decoder,
     inbox: Inbox,
     hush: Hush,
+    /// Until the line has carried a frame's first byte.
+    typed: Option<Typed>,
     frame: u32,
     /// When a frame ended last, in ticks, and the longest time between two since a PC asked.
     frame_end: u64,
@@ -90,6 +92,7 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
             decoder: Decoder::new(),
             inbox: Inbox::default(),
             hush: Hush::new(B::TICKS_PER_SECOND.into()),
+            typed: Some(Typed::new()),
             frame: 0,
             frame_end: 0,
             slowest_frame: 0,
@@ -272,6 +275,16 @@ impl<'a, B: Board, W: Wait> Application<'a, B, W> {
     }
 
     fn link_byte(&mut self, byte: u8) {
+        match &mut self.typed {
+            Some(_) if byte == 0 => self.typed = None,
+            Some(typed) => {
+                if let Some(usage) = typed.feed(byte) {
+                    self.intake.type_key(usage);
+                }
+                return;
+            }
+            None => {}
+        }
         let message = match self.decoder.feed(byte) {
             None => return,
             Some(Ok(frame)) if frame.kind < kind::APPLICATION => {

@@ -7,7 +7,12 @@ use serde::{Deserialize, Serialize};
 pub struct Intake {
     controls: Controls,
     tally: Tally,
+    /// Frames until a key that was typed at a terminal is let go.
+    typed: u8,
 }
+
+/// Frames that a typed key is down: longer than a terminal takes until it says again that one is held.
+const TYPED_FRAMES: u8 = 4;
 
 /// What came in since the start, or since a PC began a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -51,7 +56,7 @@ impl Intake {
     /// Starts with nothing connected.
     #[must_use]
     pub fn new() -> Self {
-        Self { controls: Controls::new(Config::default()), tally: Tally::default() }
+        Self { controls: Controls::new(Config::default()), tally: Tally::default(), typed: 0 }
     }
 
     /// Takes in a report of any kind.
@@ -87,9 +92,23 @@ impl Intake {
         self.controls.state()
     }
 
+    /// Takes in a key that was typed at a terminal, by its usage on a USB keyboard: as if it was let go and pressed
+    /// there.
+    pub fn type_key(&mut self, usage: u8) {
+        for usage in [0, usage] {
+            // Its length is right.
+            let _ = self.controls.accept_keyboard(&[0, 0, usage, 0, 0, 0, 0, 0]);
+        }
+        self.typed = TYPED_FRAMES;
+    }
+
     /// Ends a frame: forgets what was pressed in it.
     pub fn end_frame(&mut self) {
         self.controls.end_frame();
+        if self.typed == 1 {
+            let _ = self.controls.accept_keyboard(&[0; 8]);
+        }
+        self.typed = self.typed.saturating_sub(1);
     }
 
     /// Returns what came in so far.
@@ -118,6 +137,26 @@ mod tests {
             reports.add(text);
             assert_eq!(reports.checksum, expected);
         }
+    }
+
+    #[test]
+    fn a_typed_key_is_let_go_after_some_frames_and_pressed_anew_when_it_is_typed_again() {
+        use controls::Button;
+        const TAB: u8 = 0x2B;
+        let mut intake = Intake::new();
+        intake.type_key(TAB);
+        for frame in 0..10 {
+            let state = intake.state();
+            assert_eq!(state.pressed.contains(Button::Triangle), frame == 0, "{frame}");
+            assert_eq!(state.held.contains(Button::Triangle), frame < usize::from(TYPED_FRAMES), "{frame}");
+            intake.end_frame();
+        }
+        for _ in 0..3 {
+            intake.type_key(TAB);
+            assert!(intake.state().pressed.contains(Button::Triangle));
+            intake.end_frame();
+        }
+        assert_eq!(intake.tally(), Tally::default());
     }
 
     #[test]

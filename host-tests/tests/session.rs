@@ -24,6 +24,20 @@ fn with_link<R>(work: impl FnOnce(&mut Line<'_>) -> R) -> R {
     with_host(|machine| Ok(work(&mut Link::new(machine)))).expect("the application starts")
 }
 
+/// What the console has said after these bytes and a frame.
+fn console_after(typed: &[&[u8]]) -> String {
+    let said = with_host(|machine| {
+        let mut said = String::new();
+        for bytes in typed {
+            machine.send(bytes)?;
+            // Nobody answers: what is left to read is the console.
+            said = machine.receive("an answer").expect_err("keys are not answered").to_string();
+        }
+        Ok(said)
+    });
+    said.expect("the application starts")
+}
+
 fn frame(link: &mut Line<'_>, report: &Report) -> FrameReport {
     link.dualshock3(report).expect("the line takes it");
     link.step().expect("a frame comes")
@@ -287,4 +301,23 @@ fn whole_frames_of_nonsense_change_nothing() {
         })
     });
     assert_eq!(found, expected);
+}
+
+#[test]
+fn keys_typed_at_a_terminal_choose_scene_style_projection_and_mode() {
+    let said = console_after(&[b"\t", b"v", b"c", b"\r\n", b"h"]);
+    let expected =
+        ["style: smooth", "projection: orthographic", "mode: matrices of 2014", "scene: torus", "this legend"];
+    let mut rest = said.as_str();
+    for line in expected {
+        let Some(at) = rest.find(line) else { panic!("`{line}` is missing or too early in {said}") };
+        rest = &rest[at..];
+    }
+}
+
+#[test]
+fn after_a_frame_of_a_program_letters_are_no_keys() {
+    let begin = link::encode(link::HOST_MESSAGE, &HostMessage::Run, &mut [0; FRAME_SIZE_MAXIMUM]).map(<[u8]>::to_vec);
+    let said = console_after(&[&begin.expect("it fits"), b"\t\t\t"]);
+    assert!(!said.contains("style: "), "{said}");
 }

@@ -1,4 +1,4 @@
-//! The demonstration's frames and those of the five systems, as the firmware draws them, through the device and the
+//! The frames of the demonstration, of the five systems and of a model in memory, as the firmware draws them, through the device and the
 //! model: clears, triangles, lines, swaps and fences as they come, and after every frame all equal.
 
 mod common;
@@ -8,18 +8,24 @@ use std::sync::LazyLock;
 use common::pair::Pair;
 use rtl_sim::replay::frames;
 use xtask::progress::Progress;
-use xtask::{demo, session};
+use xtask::{demo, found_mesh, session};
 
 /// The words of every frame of every scene, drawn by the firmware's application in this process.
 static WORDS: LazyLock<Vec<u32>> = LazyLock::new(|| {
     let parts = session::demo().expect("the session is committed");
-    demo::words(&parts, &Progress::quiet()).expect("it plays")
+    demo::words(&parts, None, &Progress::quiet()).expect("it plays")
 });
 
 /// The same of the session of the five systems: flat and Gouraud triangles, lines, depth alone, depth as grey.
 static SEEDS: LazyLock<Vec<u32>> = LazyLock::new(|| {
     let parts = session::seeds().expect("the session is committed");
-    demo::words(&parts, &Progress::quiet()).expect("it plays")
+    demo::words(&parts, None, &Progress::quiet()).expect("it plays")
+});
+
+/// The same of a model that lies in memory, drawn a block at a time.
+static FOUND: LazyLock<Vec<u32>> = LazyLock::new(|| {
+    let mesh = found_mesh::file().expect("it is committed");
+    demo::words(&found_mesh::parts(), Some(mesh), &Progress::quiet()).expect("it plays")
 });
 
 fn scenes(units: u32, session: &str, words: &[u32]) -> (usize, u32) {
@@ -79,4 +85,11 @@ fn one_unit_shows_the_five_systems() {
 #[test]
 fn eight_units_show_the_five_systems() {
     seeds(8);
+}
+
+#[test]
+fn eight_units_show_the_model_in_memory() {
+    let (count, triangles) = scenes(8, "the model in memory", &FOUND);
+    assert_eq!(count, found_mesh::parts()[0].frames.len(), "every frame ends with a swap");
+    assert!(triangles > 8_000, "{triangles} triangles are not the knot's");
 }

@@ -16,7 +16,7 @@ use xtask::{demo, session};
 static WORDS: LazyLock<Vec<u32>> = LazyLock::new(|| {
     let mut parts = session::demo().expect("the session is committed");
     parts.iter_mut().for_each(|part| part.frames.truncate(2));
-    let words = demo::words(&parts, &Progress::quiet()).expect("it plays");
+    let words = demo::words(&parts, None, &Progress::quiet()).expect("it plays");
     let unfinished = &words[..words.len() / 2 / 11 * 11];
     let file = WordFile { words: unfinished.to_vec(), spare_bytes: 0 };
     let whole = file.entries().last().map_or(0, |entry| entry.word + entry.length);

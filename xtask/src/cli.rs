@@ -141,9 +141,12 @@ pub struct DemoArguments {
 /// Flags of `test`.
 #[derive(Debug, Args)]
 pub struct TestArguments {
-    /// Runs only the steps with TEXT in their name (`usb`, say), and the builds that they need
+    /// Runs only the steps with TEXT in their name (`usb`, say)
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,
+    /// Runs just the step of this name; so the command itself runs steps beside each other
+    #[arg(long, value_name = "NAME", hide = true, conflicts_with = "only")]
+    pub step: Option<String>,
 }
 
 /// Flags of `run`.

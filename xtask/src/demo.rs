@@ -42,12 +42,13 @@ pub fn play(machine: &mut (impl Machine + ?Sized), parts: &[ScenePart], progress
     Ok(played)
 }
 
-/// Plays a session on this computer and returns the packet words of all its frames.
+/// Plays a session on this computer, with a mesh file in memory or without one, and returns the packet words of all
+/// its frames.
 ///
 /// # Errors
 /// As [`play`].
-pub fn words(parts: &[ScenePart], progress: &Progress) -> anyhow::Result<Vec<u32>> {
-    let (played, mut words) = with_recording_host(|machine| play(machine, parts, progress))?;
+pub fn words(parts: &[ScenePart], mesh: Option<Vec<u8>>, progress: &Progress) -> anyhow::Result<Vec<u32>> {
+    let (played, mut words) = with_recording_host(mesh, |machine| play(machine, parts, progress))?;
     // Until it is told to step, the application draws frames of its own.
     let count: u64 = played.report.scenes.iter().map(|scene| scene.words).sum();
     Ok(words.split_off(words.len() - count as usize))
@@ -69,7 +70,7 @@ mod tests {
         parts.iter_mut().for_each(|part| part.frames.truncate(2));
         let quiet = Progress::quiet();
         let played = with_host(|machine| play(machine, &parts, &quiet)).expect("it plays");
-        let file = WordFile { words: words(&parts, &quiet).expect("it plays again"), spare_bytes: 0 };
+        let file = WordFile { words: words(&parts, None, &quiet).expect("it plays again"), spare_bytes: 0 };
         file.check_end().expect("whole packets");
         let swaps = file.entries().filter(|entry| entry.packet == Ok(Packet::Swap)).count();
         assert_eq!(swaps, played.pictures.len());

@@ -53,7 +53,7 @@ fn measure_part(verilated: &Verilated, part: &ScenePart) -> anyhow::Result<Fill>
 
 /// The words of a part's last frame, from its clear to its fence.
 fn last_frame(part: &ScenePart) -> anyhow::Result<Vec<u32>> {
-    let (last, mut words) = with_recording_host(|machine| {
+    let (last, mut words) = with_recording_host(None, |machine| {
         let mut last = 0;
         session::play(&mut Link::new(machine), part, |frame| {
             last = frame.report.words as usize;

@@ -1,11 +1,12 @@
-//! The checksums that frames must have, on every machine: the demonstration's and those of the five systems.
+//! The checksums that frames must have, on every machine: the demonstration's, those of the five systems and of a model
+//! in memory.
 
 use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
 
 use crate::demo::Played;
 use crate::paths::workspace_root;
-use crate::picture::Picture;
+use crate::picture::{self, Picture};
 use crate::report::{Report, SceneReport};
 use crate::session::ScenePart;
 
@@ -13,6 +14,14 @@ use crate::session::ScenePart;
 pub const DEMO: &str = "host-tests/golden/demo.json";
 /// Where the five systems' file lies.
 pub const SEEDS: &str = "host-tests/golden/seeds.json";
+
+/// Where the file of the model in memory lies.
+pub const FOUND: &str = "host-tests/golden/model-in-memory.json";
+
+/// All pictures on one, as the README has it.
+pub const SHEET: &str = "docs/scenes.png";
+/// Pictures in a row of it.
+const COLUMNS: u32 = 4;
 
 /// Folder of the five systems' pictures: the last frame of each part.
 pub const PICTURES: &str = "docs/seeds";
@@ -24,6 +33,17 @@ pub fn pictures(played: &Played) -> Vec<(String, &Picture)> {
         picture.map(|(name, _, picture)| (format!("{PICTURES}/{name}.png"), picture))
     };
     played.report.scenes.iter().filter_map(last).collect()
+}
+
+/// Returns the last pictures of the five systems' parts and of the model in memory as one, a quarter as large.
+///
+/// # Errors
+/// When there is none.
+pub fn sheet(played: &Played, found: &Played) -> anyhow::Result<Picture> {
+    let of_systems = pictures(played).into_iter().map(|(_, picture)| picture.halved());
+    let of_model = found.pictures.last().map(|(.., picture)| picture.halved());
+    let all: Vec<Picture> = of_systems.chain(of_model).collect();
+    picture::sheet(&all.iter().collect::<Vec<_>>(), COLUMNS)
 }
 
 /// Frame checksums of each scene.

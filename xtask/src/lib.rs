@@ -49,6 +49,7 @@ pub mod demo;
 pub mod fake_pad;
 pub mod fill;
 pub mod firmware_build;
+pub mod found_mesh;
 pub mod frame_model;
 pub mod generated;
 pub mod golden;

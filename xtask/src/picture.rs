@@ -5,11 +5,13 @@
 mod palette;
 mod png_file;
 mod pnm;
+mod sheet;
 
 use anyhow::ensure;
 
 pub use png_file::{read_png, write_animated_png, write_png};
 pub use pnm::{read_ppm, write_depth_pgm};
+pub use sheet::sheet;
 
 /// A picture of 8-bit RGB pixels, row 0 on top.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,6 +74,14 @@ impl Picture {
         Self { width: self.width * 2, height: self.height * 2, pixels }
     }
 
+    /// Returns every other pixel of every other row: what [`doubled`](Self::doubled) was made of.
+    #[must_use]
+    pub fn halved(&self) -> Self {
+        let rows = self.pixels.chunks_exact(self.width as usize * 3).step_by(2);
+        let pixels = rows.flat_map(|row| row.as_chunks::<3>().0.iter().step_by(2)).flatten().copied().collect();
+        Self { width: self.width.div_ceil(2), height: self.height.div_ceil(2), pixels }
+    }
+
     /// Returns how many pixels differ, or `None` when the sizes do.
     pub fn differing_pixels(&self, other: &Self) -> Option<usize> {
         let same_size = (self.width, self.height) == (other.width, other.height);
@@ -99,6 +109,8 @@ mod tests {
         let doubled = picture.doubled();
         assert_eq!((doubled.width(), doubled.height()), (4, 2));
         assert_eq!(doubled.bytes(), [row, row].concat());
+        assert_eq!(doubled.halved(), picture);
+        assert_eq!(Picture::new(3, 1, vec![7; 9]).expect("the right size").halved().bytes(), [7; 6]);
     }
 
     #[test]

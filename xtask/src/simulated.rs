@@ -16,10 +16,12 @@ use crate::cargo_build;
 use crate::paths::{target_folder, workspace_root};
 use crate::picture::Picture;
 use crate::progress::Progress;
-use crate::setup::ensure_verilator;
+use crate::setup::{ensure_verilator, ensure_wave_library};
 
 /// The crate of the program.
 pub const CRATE: &str = "simulator";
+/// Its features with the design, the same as the design's own tests are built with: so that is verilated once.
+pub const RTL_FEATURES: &str = "rtl,rtl-sim/waves";
 /// The program.
 const PROGRAM: &str = "de1-soc-simulator";
 /// Pixel units of the design that the board has.
@@ -47,8 +49,10 @@ pub struct Simulator {
 /// How the program is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Build {
-    /// With checks of its own, as the tests are built.
+    /// With checks of its own.
     Checked,
+    /// As its tests are, which leave nothing to build: with the design, whichever is wanted.
+    Tested,
     /// As quick as it gets.
     Optimised,
 }
@@ -70,13 +74,14 @@ impl Simulator {
     /// When something is missing and cannot be installed, or the build fails.
     pub fn prepare(design: Design, window: bool, build: Build, progress: &Progress) -> anyhow::Result<Self> {
         let (profile, folder) = match build {
-            Build::Checked => ("dev", "debug"),
+            Build::Checked | Build::Tested => ("dev", "debug"),
             Build::Optimised => ("measure", "measure"),
         };
         let mut features = Vec::new();
-        if design == Design::Rtl {
+        if design == Design::Rtl || build == Build::Tested {
             ensure_verilator(progress)?;
-            features.push("rtl");
+            ensure_wave_library(progress)?;
+            features.push(RTL_FEATURES);
         }
         if window {
             features.push("window");

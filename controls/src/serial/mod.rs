@@ -12,15 +12,19 @@
 //! The CRC is polynomial 0x1021, start 0xFFFF, nothing reflected (CRC-16/IBM-3740 in the RevEng
 //! catalogue). A zero on the line is always a frame's end and the next one's beginning, so a lost,
 //! doubled or flipped byte costs at most the frames that it touches. Two frames may share a zero.
+//!
+//! A person at a terminal sends no zeros: until the first one, bytes are keys ([`Typed`]).
 
 mod decoder;
 mod encoder;
 mod frame_error;
 pub mod kind;
+mod typed;
 
 pub use decoder::{Decoder, Frame};
 pub use encoder::{EncodeError, FRAME_OVERHEAD, FRAME_SIZE_MAXIMUM, encode};
 pub use frame_error::FrameError;
+pub use typed::Typed;
 
 /// How many bytes a payload may have.
 pub const PAYLOAD_MAXIMUM: usize = 250;

@@ -93,7 +93,7 @@ impl Perform for Balancer {
 
     fn stage(&self, _: &ControllerState, manner: Manner) -> Stage {
         let mut stage = Stage::new(scenery::camera(manner), DAYLIGHT, manner.style);
-        scenery::add(&self.game, &mut stage);
+        scenery::add(&self.game, &mut stage, manner.style);
         let signs = signs::Signs::new(manner);
         match self.game.phase() {
             Phase::Ready { .. } => signs.count(&mut stage, self.game.countdown().div_ceil(STEPS_PER_SECOND / 2)),

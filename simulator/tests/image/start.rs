@@ -36,3 +36,15 @@ fn two_runs_are_the_same() {
     };
     assert_eq!(run(), run());
 }
+
+/// What a person types at the console, with no program at the other end.
+#[test]
+#[ignore = "needs the image: cargo xtask test --only simulator"]
+fn keys_typed_at_the_console_choose_what_is_shown() {
+    let mut board = Board::draws();
+    for (typed, answer) in [(&b"\t"[..], "style: smooth"), (b"v", "projection: orthographic"), (b"\r", "scene: torus")]
+    {
+        board.machine.send(typed);
+        board.says(200, answer);
+    }
+}

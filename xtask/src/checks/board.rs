@@ -1,6 +1,7 @@
 //! Steps that run the firmware in QEMU.
 
 use std::fs;
+use std::path::Path;
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
@@ -13,10 +14,11 @@ use crate::boot::Bootable;
 use crate::cli::Board;
 use crate::demo;
 use crate::firmware_build::build_firmware;
+use crate::found_mesh;
 use crate::golden::{self, Golden};
-use crate::machine::{Link, with_host};
+use crate::machine::{Emulated, Link, with_host, with_host_and_mesh};
 use crate::paths::{TemporaryFolder, workspace_root};
-use crate::picture::read_png;
+use crate::picture::{Picture, read_png};
 use crate::recorded_game::{self, Record};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, verdict};
 use crate::session;
@@ -27,7 +29,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const FAILED: i32 = 101;
 
 /// The demonstration session gives the same frames in QEMU, in this process, and in the golden file.
-pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn demonstration(state: &State) -> anyhow::Result<()> {
     let parts = session::demo()?;
     let golden = golden(golden::DEMO)?;
     let remedy = "if the change is wanted, look at the pictures of `cargo xtask demo`, then run \
@@ -47,7 +49,7 @@ pub(super) fn demonstration(state: &mut State) -> anyhow::Result<()> {
 }
 
 /// The same on the Cortex-A7, with another display, timer and interrupt controller.
-pub(super) fn demonstration_on_raspi2b(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn demonstration_on_raspi2b(state: &State) -> anyhow::Result<()> {
     let golden = golden(golden::DEMO)?;
     let mut machine = state.bootable(Board::Raspi2b)?.start(&state.folder("demo-raspi2b"))?;
     let played = demo::play(&mut machine, &session::demo()?, &state.progress)?;
@@ -56,31 +58,64 @@ pub(super) fn demonstration_on_raspi2b(state: &mut State) -> anyhow::Result<()> 
 }
 
 /// The pictures of the five systems are the same on QEMU's Cortex-A9, in this process and in the golden file.
-pub(super) fn seeds(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn seeds(state: &State) -> anyhow::Result<()> {
     let (golden, parts) = (golden(golden::SEEDS)?, session::seeds()?);
     let here = with_host(|machine| demo::play(machine, &parts, &state.progress))?;
     golden.check(&Golden::from(&here.report)).context("on this computer")?;
     for (path, picture) in golden::pictures(&here) {
-        let committed = read_png(&workspace_root().join(&path))?;
-        ensure!(committed == *picture, "{path} shows something else: write it with `cargo xtask generate --golden`");
+        is_committed(&path, picture)?;
     }
     let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("seeds"))?;
     let there = demo::play(&mut machine, &parts, &state.progress)?;
     machine.quit()?;
-    golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")
+    golden.check(&Golden::from(&there.report)).context("on QEMU's Cortex-A9, but not on this computer")?;
+
+    let (golden, parts, mesh) = (self::golden(golden::FOUND)?, found_mesh::parts(), found_mesh::file()?);
+    let found = with_host_and_mesh(mesh.clone(), |machine| demo::play(machine, &parts, &state.progress))?;
+    golden.check(&Golden::from(&found.report)).context("of the model in memory, on this computer")?;
+    if let Some((.., picture)) = found.pictures.last() {
+        is_committed(found_mesh::PICTURE, picture)?;
+    }
+    is_committed(golden::SHEET, &golden::sheet(&here, &found)?)?;
+    let folder = state.folder("seeds-in-memory");
+    let mut machine = start_with_mesh(state, Board::VexpressA9, &folder, &mesh)?;
+    let there = demo::play(&mut machine, &parts, &state.progress)?;
+    machine.quit()?;
+    golden.check(&Golden::from(&there.report)).context("of the model in memory, on QEMU's Cortex-A9")
 }
 
-/// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's Cortex-A9, in this
-/// process and in the golden file.
-pub(super) fn game(state: &mut State) -> anyhow::Result<()> {
+/// Starts a board with a mesh file in its memory.
+pub(super) fn start_with_mesh(state: &State, board: Board, folder: &Path, mesh: &[u8]) -> anyhow::Result<Emulated> {
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let file = folder.join("in-memory.mesh");
+    fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
+    state.bootable(board)?.start_with_mesh(folder, Some(file))
+}
+
+fn is_committed(path: &str, picture: &Picture) -> anyhow::Result<()> {
+    let committed = read_png(&workspace_root().join(path))?;
+    ensure!(committed == *picture, "{path} shows something else: write it with `cargo xtask generate --golden`");
+    Ok(())
+}
+
+/// The recorded game gives the same points, and its first seconds the same pictures, on QEMU's boards, in this process
+/// and in the golden file.
+pub(super) fn game(state: &State) -> anyhow::Result<()> {
     let (golden, parts) = (Record::read()?, session::game()?);
     let here = Record::of(&parts)?;
     golden.check(&here).context("on this computer")?;
-    let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("game"))?;
-    let there = recorded_game::play(&mut machine, &parts)?;
-    machine.quit()?;
-    there.check_against(&golden).context("on QEMU's Cortex-A9, but not on this computer")?;
-    println!("score {} in the whole round, {} after {} frames in QEMU", here.score(), there.score(), there.frames);
+    for board in [Board::VexpressA9, Board::Raspi2b] {
+        let mut machine = state.bootable(board)?.start(&state.folder(&format!("game-{board}")))?;
+        let there = recorded_game::play(&mut machine, &parts)?;
+        machine.quit()?;
+        there.check_against(&golden).with_context(|| format!("on {board}, but not on this computer"))?;
+        println!(
+            "score {} in the whole round, {} after {} frames on {board}",
+            here.score(),
+            there.score(),
+            there.frames
+        );
+    }
     Ok(())
 }
 
@@ -89,7 +124,7 @@ fn golden(file: &str) -> anyhow::Result<Golden> {
 }
 
 /// Every byte of a report is lost once; the firmware drops what it spoils and goes on.
-pub(super) fn lossy_line(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn lossy_line(state: &State) -> anyhow::Result<()> {
     let mut machine = state.bootable(Board::VexpressA9)?.start(&state.folder("lossy-line"))?;
     let mut buffer = [0; FRAME_SIZE_MAXIMUM];
     let report = DualShock3Report::default().to_bytes();
@@ -116,7 +151,7 @@ pub(super) fn lossy_line(state: &mut State) -> anyhow::Result<()> {
 }
 
 /// Every kind of fault is reported on the console and ends QEMU with the status of a failure.
-pub(super) fn faults(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn faults(state: &State) -> anyhow::Result<()> {
     let elf = build_firmware(Board::VexpressA9, &["fault-injection"], state.toolchain()?, &state.progress)?;
     // A copy, as the next build of the board overwrites the file.
     let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;

@@ -66,15 +66,15 @@ fn system_tool(program: &str, packages: &Packages, progress: &Progress) -> anyho
 }
 
 /// The whole card, as `cargo xtask image` makes it, with an FPGA image that is none.
-pub(super) fn card(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn card(state: &State) -> anyhow::Result<()> {
     let tools = Tools::find(&state.progress)?;
     let built = ensure_uboot(&state.progress)?;
     let uboot = UBoot::read(&built.image)?;
-    let elf = state.elves.get(&Board::De1Soc).context("the firmware for de1-soc was not built")?;
+    let elf = state.elf(Board::De1Soc)?;
     let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;
     let output = folder.path();
 
-    let program = Program::read(elf)?;
+    let program = Program::read(&elf)?;
     // As long as an uncompressed one.
     let fpga_image: Vec<u8> = (0..7_000_001_u32).map(|index| (index.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     let files = files(&program, Some(fpga_image));
@@ -88,7 +88,7 @@ pub(super) fn card(state: &mut State) -> anyhow::Result<()> {
     check_uboot(&tools, output, part(&uboot_partition), &uboot)?;
     check_script(&tools, output)?;
     let binary = output.join("objcopy.bin");
-    run(Command::new(&tools.objcopy).args(["-O", "binary"]).arg(elf).arg(&binary))?;
+    run(Command::new(&tools.objcopy).args(["-O", "binary"]).arg(&elf).arg(&binary))?;
     ensure!(read(&binary)? == read(&output.join("card").join(PROGRAM_NAME))?, "objcopy makes another {PROGRAM_NAME}");
     check_commands(&built.elf, &script::text(program.address))?;
     image::write_card(output, &files, &uboot)?;

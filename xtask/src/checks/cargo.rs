@@ -1,4 +1,4 @@
-//! Steps that are cargo's: every crate but the one that wants Verilator.
+//! Steps that are cargo's.
 
 use std::env;
 use std::path::Path;
@@ -6,25 +6,32 @@ use std::process::Command;
 
 use anyhow::{Context, bail};
 
+use super::{State, rtl};
 use crate::paths::workspace_root;
-use crate::verilated;
+use crate::{simulated, verilated};
+
+/// Features that are off by default.
+const FEATURES: &str = "rtl-sim/waves,simulator/rtl,simulator/window";
 
 pub(super) fn formatting() -> anyhow::Result<()> {
     component("rustfmt", &["fmt", "--version"])?;
     run(&["fmt", "--all", "--check"], "run `cargo fmt --all`")
 }
 
-pub(super) fn clippy() -> anyhow::Result<()> {
+/// All crates in one call, which reads each once, with the features that a plain call leaves out.
+pub(super) fn clippy(state: &State) -> anyhow::Result<()> {
     component("clippy", &["clippy", "--version"])?;
+    rtl::tools(state)?;
     run(
-        &["clippy", "--quiet", "--workspace", "--exclude", verilated::CRATE, "--all-targets", "--", "-D", "warnings"],
+        &["clippy", "--quiet", "--workspace", "--all-targets", "--features", FEATURES, "--", "-D", "warnings"],
         "mend what clippy names above; most it can mend itself with `cargo clippy --fix`",
     )
 }
 
+/// The tests of the crates that neither want the FPGA's design nor run the board's image.
 pub(super) fn tests() -> anyhow::Result<()> {
     run(
-        &["test", "--workspace", "--exclude", verilated::CRATE],
+        &["test", "--workspace", "--exclude", verilated::CRATE, "--exclude", simulated::CRATE],
         "the failed test is named above; `cargo test NAME` runs it alone",
     )
 }

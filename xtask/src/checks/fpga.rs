@@ -84,7 +84,7 @@ impl Tools {
 }
 
 /// Scripts, pins, constraints and sources agree with the design and with one another.
-pub(super) fn project(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn project(state: &State) -> anyhow::Result<()> {
     let tools = Tools::find(&state.progress)?;
     check(&tools, &workspace_root())?;
     build::check(&tools.make, &workspace_root())
@@ -134,7 +134,7 @@ fn check(tools: &Tools, root: &Path) -> anyhow::Result<()> {
 }
 
 /// The board's keys, switches, lights and displays answer as their registers say.
-pub(super) fn board_io(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn board_io(state: &State) -> anyhow::Result<()> {
     let tools = Tools::find(&state.progress)?;
     let folder = TemporaryFolder::new().context("cannot make a temporary folder")?;
     let run = |command: &mut Command| -> anyhow::Result<String> {

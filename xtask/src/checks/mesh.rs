@@ -1,16 +1,16 @@
 //! Steps about mesh files that lie in a board's memory.
 
 use std::f64::consts::TAU;
-use std::fs;
 use std::time::Duration;
 
-use anyhow::{Context, ensure};
+use anyhow::ensure;
 use firmware::link::FrameReport;
 use firmware::scene::Scene;
 use models::Model;
 use models::compile::{Options, compile};
 
 use super::State;
+use super::board::start_with_mesh;
 use crate::cli::Board;
 use crate::machine::{Link, Machine, with_host_and_mesh};
 
@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A board that has a large mesh file in its memory draws the same as this computer; of a broken file it says what is
 /// wrong, and shows what is built in.
-pub(super) fn in_memory(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn in_memory(state: &State) -> anyhow::Result<()> {
     let bytes = compile(&torus(), &Options::default())?.bytes;
     let here = with_host_and_mesh(bytes.clone(), |machine| first_frame(machine))?;
     ensure!(here.triangles_submitted == 2 * RINGS * SIDES, "{} triangles submitted here", here.triangles_submitted);
@@ -42,11 +42,7 @@ pub(super) fn in_memory(state: &mut State) -> anyhow::Result<()> {
 
 /// Starts a board with a file in its memory, waits for the line that tells of it, and draws a frame of the model.
 fn on_board(state: &State, board: Board, mesh: &[u8], line: &str) -> anyhow::Result<FrameReport> {
-    let folder = state.folder("mesh");
-    fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let file = folder.join("in-memory.mesh");
-    fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
-    let mut machine = state.bootable(board)?.start_with_mesh(&folder, Some(file))?;
+    let mut machine = start_with_mesh(state, board, &state.folder("mesh"), mesh)?;
     let told =
         machine.qemu().wait_for_line("what the firmware says of the mesh", PATIENCE, |text| text.starts_with(line))?;
     println!("{board}: {told}");

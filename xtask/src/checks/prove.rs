@@ -86,13 +86,18 @@ fn tools(state: &State) -> anyhow::Result<Tools> {
     Ok(Tools { yosys: ensure_yosys(&state.progress)?, python: ensure_bitwuzla(&state.progress)? })
 }
 
+/// Makes sure of the tools before two steps want them at once.
+pub(super) fn installed(state: &State) -> anyhow::Result<()> {
+    tools(state).map(drop)
+}
+
 /// The FIFO, and the traversal with as many pixel units as the board's; `cargo xtask prove` takes the others as well.
-pub(super) fn theorems(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn theorems(state: &State) -> anyhow::Result<()> {
     let proofs: Vec<Proof> = PROOFS.into_iter().filter(|proof| matches!(proof.units, None | Some(8))).collect();
     prove_all(&proofs, &tools(state)?).map(drop)
 }
 
-pub(super) fn broken_designs(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn broken_designs(state: &State) -> anyhow::Result<()> {
     let tools = tools(state)?;
     MISTAKES.iter().enumerate().try_for_each(|(number, mistake)| mistake.is_noticed(&tools, number))
 }

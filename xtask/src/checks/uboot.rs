@@ -32,12 +32,12 @@ const PATIENCE: Duration = Duration::from_secs(60);
 const ENDS: [&str; 2] = ["cannot be read from partition 1", "would go"];
 
 /// The script runs to its end with and without an FPGA image, and says so when the program is missing.
-pub(super) fn follows_the_script(state: &mut State) -> anyhow::Result<()> {
+pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
     let bios = ensure_file("U-Boot for QEMU", &PATHS, &PACKAGES, &state.progress)?;
-    let qemu = state.qemu.clone().context("QEMU was not found")?;
-    let elf = state.elves.get(&Board::De1Soc).context("the firmware for de1-soc was not built")?;
+    let qemu = state.qemu()?;
+    let elf = state.elf(Board::De1Soc)?;
     let uboot = UBoot::read(&ensure_uboot(&state.progress)?.image)?;
-    let program = Program::read(elf)?;
+    let program = Program::read(&elf)?;
     let script = for_virt(&script::text(program.address))?;
     let with = |image: Option<Vec<u8>>, leave_out: &str| {
         let mut files = files(&program, image);

@@ -43,7 +43,7 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     if let Some(path) = &arguments.dump {
         let step = progress.step(format!("writing the packet words to {}", path.display()));
         // Those of this computer: the golden file says that they are the same.
-        let words = demo::words(&parts, &Progress::quiet())?;
+        let words = demo::words(&parts, None, &Progress::quiet())?;
         fs::write(path, to_bytes(&words))
             .with_context(|| format!("cannot write {}: check its folder", path.display()))?;
         step.done();
@@ -72,7 +72,7 @@ fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
         Some(scene) => {
             let mut game = session::game()?;
             game.iter_mut().for_each(|part| part.frames.truncate(GAME_FRAMES));
-            let all = [session::seeds()?, session::demo()?, game].concat();
+            let all = [game, session::seeds()?, session::demo()?].concat();
             Ok(all.into_iter().filter(|part| part.scene == scene).collect())
         }
         None if arguments.seeds => session::seeds(),

@@ -2,9 +2,10 @@
 
 use crate::cli::GenerateArguments;
 use crate::demo::{self, Played};
+use crate::found_mesh;
 use crate::generated;
 use crate::golden::{self, Golden};
-use crate::machine::with_host;
+use crate::machine::{Machine, with_host, with_host_and_mesh};
 use crate::paths::workspace_root;
 use crate::picture::write_png;
 use crate::progress::Progress;
@@ -34,11 +35,16 @@ pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
     }
     anyhow::ensure!(stale.is_empty(), "{} stale: run `cargo xtask generate` and commit the result", stale.join(", "));
     if arguments.golden {
-        write_golden(golden::DEMO, &session::demo()?)?;
-        let played = write_golden(golden::SEEDS, &session::seeds()?)?;
+        write_golden(golden::DEMO, &session::demo()?, None)?;
+        let played = write_golden(golden::SEEDS, &session::seeds()?, None)?;
         for (path, picture) in golden::pictures(&played) {
             write_png(&workspace_root().join(path), picture)?;
         }
+        let found = write_golden(golden::FOUND, &found_mesh::parts(), Some(found_mesh::file()?))?;
+        if let Some((.., picture)) = found.pictures.last() {
+            write_png(&workspace_root().join(found_mesh::PICTURE), picture)?;
+        }
+        write_png(&workspace_root().join(golden::SHEET), &golden::sheet(&played, &found)?)?;
         let record = Record::of(&session::game()?)?;
         record.write()?;
         println!("written {}: score {}", recorded_game::GOLDEN, record.score());
@@ -47,8 +53,12 @@ pub fn run(arguments: &GenerateArguments) -> anyhow::Result<()> {
 }
 
 /// Plays a session and writes the checksums that a session's frames must have from now on.
-fn write_golden(path: &str, parts: &[ScenePart]) -> anyhow::Result<Played> {
-    let played = with_host(|machine| demo::play(machine, parts, &Progress::new()))?;
+fn write_golden(path: &str, parts: &[ScenePart], mesh: Option<Vec<u8>>) -> anyhow::Result<Played> {
+    let play = |machine: &mut dyn Machine| demo::play(machine, parts, &Progress::new());
+    let played = match mesh {
+        None => with_host(play)?,
+        Some(mesh) => with_host_and_mesh(mesh, play)?,
+    };
     let new = Golden::from(&played.report);
     match Golden::read(path) {
         Ok(Some(old)) if old == new => println!("fresh   {path}"),

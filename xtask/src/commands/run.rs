@@ -76,15 +76,15 @@ fn headless(arguments: &RunArguments, design: Design, count: u32, output: &Path)
     Ok(())
 }
 
-/// Returns what is played: the demonstration's session or, of a scene or in a style that is named, the pictures of the
-/// five systems; a scene that has none there holds still.
+/// Returns what is played: the demonstration's session or, of a scene or in a style that is named, the recorded game or
+/// the pictures of the five systems; a scene that has none there holds still.
 fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
     if arguments.scene.is_none() && arguments.style.is_none() && arguments.model.is_none() {
         return session::demo();
     }
     let first = if arguments.model.is_some() { Scene::Model } else { Scene::ALL[0] };
     let scene = arguments.scene.unwrap_or(first);
-    let known = [session::seeds()?, session::demo()?, session::game()?].concat();
+    let known = [session::game()?, session::seeds()?, session::demo()?].concat();
     let named = known.into_iter().find(|part| part.scene == scene);
     let part = named.unwrap_or(ScenePart { scene, style: None, frames: vec![None] });
     Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
@@ -203,14 +203,19 @@ mod tests {
     use super::*;
     use crate::cli::{Cli, Task};
     use clap::Parser;
+    use firmware::style::Style;
+
+    fn arguments(line: &str) -> RunArguments {
+        let words = ["xtask", "run"].into_iter().chain(line.split_whitespace());
+        match Cli::try_parse_from(words).expect("a valid line").command {
+            Task::Run(arguments) => arguments,
+            _ => panic!("run is run"),
+        }
+    }
 
     /// Returns what is plugged in, and the message when that is refused.
     fn plugged(line: &str) -> Result<usize, String> {
-        let words = ["xtask", "run"].into_iter().chain(line.split_whitespace());
-        let Task::Run(arguments) = Cli::try_parse_from(words).expect("a valid line").command else {
-            panic!("run is run");
-        };
-        plugged_in(&arguments).map(|devices| devices.len()).map_err(|error| error.to_string())
+        plugged_in(&arguments(line)).map(|devices| devices.len()).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -226,6 +231,15 @@ mod tests {
     fn a_pads_socket_is_a_socket() {
         let message = plugged("--board raspi2b --pad Cargo.toml").expect_err("a file");
         assert!(message.starts_with("--pad Cargo.toml is no socket: "), "{message}");
+    }
+
+    #[test]
+    fn a_scene_that_is_named_is_played_and_the_game_is_the_recorded_one() {
+        let played = |line: &str| parts(&arguments(line)).expect("the sessions are committed");
+        assert_eq!(played("--scene game"), session::game().expect("it is committed"));
+        let solids = played("--scene solids --style flat");
+        assert_eq!((solids.len(), solids[0].scene, solids[0].style), (1, Scene::Solids, Some(Style::Flat)));
+        assert_eq!(played("--board vexpress-a9"), session::demo().expect("it is committed"));
     }
 
     #[test]

@@ -9,5 +9,8 @@ use crate::cli::TestArguments;
 ///
 /// The first check that fails, and what to do about it.
 pub fn run(arguments: &TestArguments) -> anyhow::Result<()> {
-    checks::run(arguments.only.as_deref())
+    match &arguments.step {
+        Some(name) => checks::run_one(name),
+        None => checks::run(arguments.only.as_deref()),
+    }
 }

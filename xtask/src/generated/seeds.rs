@@ -116,6 +116,14 @@ pub fn text() -> String {
         // E: a triangle at a time, edge functions, many of them; flat as there, and smooth.
         part(Scene::Torus, None, 6, |_| Hand { pitch: -10.0, ..Hand::default() }),
         part(Scene::Torus, Some(Style::Smooth), 6, |_| Hand { roll: 10.0, ..Hand::default() }),
+        // The model that is built in, for there is no file in memory.
+        part(Scene::Model, None, 10, |frame| Hand { pitch: 2.0 * f64::from(frame), ..Hand::default() }),
+        // The game that A was to be, in another style than its own, while it counts down.
+        part(Scene::Game, Some(Style::Smooth), 40, |frame| Hand {
+            roll: if frame < 3 { 0.0 } else { 9.0 },
+            pitch: 6.0,
+            ..Hand::default()
+        }),
     ];
     format!("{HEADER}{}", session::format(&parts))
 }

@@ -115,16 +115,17 @@ pub fn with_host_and_mesh<R>(
     with_model(|device| start(SharedModel::new(device), Some(mesh.leak()), work))
 }
 
-/// Does the same, and returns the packet words as well that `work` had drawn.
+/// Does the same, with a mesh file or without one, and returns the packet words as well that `work` had drawn.
 ///
 /// # Errors
 /// As [`with_host`].
 pub fn with_recording_host<R>(
+    mesh: Option<Vec<u8>>,
     work: impl FnOnce(&mut dyn Machine) -> anyhow::Result<R>,
 ) -> anyhow::Result<(R, Vec<u32>)> {
     with_model(|device| {
         let model = SharedModel::recording(device);
-        let result = start(model.clone(), None, work)?;
+        let result = start(model.clone(), mesh.map(|mesh| &*mesh.leak()), work)?;
         Ok((result, model.take_words()))
     })
 }

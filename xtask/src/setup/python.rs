@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 
+use super::lock::SetupLock;
 use super::logged::Log;
 use super::packages::{Packages, ensure_tool};
 use crate::paths::target_folder;
@@ -56,10 +57,16 @@ impl PythonPackage {
     fn ensure(&self, progress: &Progress) -> anyhow::Result<PathBuf> {
         let folder = target_folder().join("setup").join(self.folder);
         let stamp = folder.join("requirement.txt");
-        if fs::read_to_string(&stamp).is_ok_and(|text| text == self.requirement) {
+        let is_there = || fs::read_to_string(&stamp).is_ok_and(|text| text == self.requirement);
+        if is_there() {
             return Ok(folder);
         }
         let python = ensure_tool("python3", &PYTHON, progress)?;
+        let _lock = SetupLock::take(progress)?;
+        // Another process may have installed it while this one waited.
+        if is_there() {
+            return Ok(folder);
+        }
         let step = progress.step(format!("installing {}", self.name));
         let log = Log::new(self.folder)?;
         let mut environment = Command::new(python);

@@ -16,9 +16,9 @@ const ELEVATION: I16F16 = I16F16::lit("52");
 const LOWER: I32F32 = I32F32::lit("0.06");
 /// Near and far planes; where depth is shown they close in on the plate.
 const PLANES: (I32F32, I32F32) = (I32F32::lit("1"), I32F32::lit("10"));
-const PLANES_OF_DEPTH: (I32F32, I32F32) = (I32F32::lit("2.4"), I32F32::lit("5.2"));
+const PLANES_OF_DEPTH: (I32F32, I32F32) = (I32F32::lit("2.7"), I32F32::lit("4.9"));
 
-/// Heights above the plate of what lies on it, one above the other.
+/// Heights above the plate of what lies on it, one above the other, times [`lift`].
 const SHADOW: I32F32 = I32F32::lit("0.004");
 const HOOP: I32F32 = I32F32::lit("0.008");
 const SPOT: I32F32 = I32F32::lit("0.012");
@@ -27,6 +27,16 @@ const COMBO: I32F32 = I32F32::lit("0.02");
 const CAST: [I32F32; 2] = [I32F32::lit("0.45"), I32F32::lit("-0.6")];
 /// Height of the digit on a target, in the target's radii.
 const DIGIT: I32F32 = I32F32::lit("0.42");
+
+/// Returns how many times as high lies what lies on the plate: higher than lines are drawn in front of the faces that
+/// they border, and high enough to be another grey.
+fn lift(style: Style) -> i64 {
+    match style {
+        Style::HiddenLines => 3,
+        Style::DepthGrey => 12,
+        _ => 1,
+    }
+}
 
 /// Returns the planes between which all is seen.
 pub fn planes(manner: Manner) -> (I32F32, I32F32) {
@@ -62,7 +72,7 @@ pub fn half_height(manner: Manner, distance: I32F32) -> I32F32 {
 }
 
 /// Adds the game's objects.
-pub fn add(game: &Game, stage: &mut Stage) {
+pub fn add(game: &Game, stage: &mut Stage, style: Style) {
     let tilted = tilted(game.plate());
     let side = I32F32::from(game.level().half_side);
     let mut place = |shape: Shape, [x, z]: [Number; 2], height: I32F32, scale: I32F32, turned: &Matrix| {
@@ -75,6 +85,7 @@ pub fn add(game: &Game, stage: &mut Stage) {
     };
     const MIDDLE: [Number; 2] = [Number::ZERO; 2];
     let level = Matrix::scaling([side, I32F32::ONE, side]);
+    let [shadow, hoop, spot, combo] = [SHADOW, HOOP, SPOT, COMBO].map(|height| height * lift(style));
     place(Shape::Board, MIDDLE, I32F32::ZERO, I32F32::ONE, &level);
 
     let (ball, target) = (game.ball(), game.target());
@@ -84,15 +95,15 @@ pub fn add(game: &Game, stage: &mut Stage) {
         let [x, z] = [0, 1].map(|axis: usize| ball.place[axis] + Number::from_num(CAST[axis] * radius));
         // Beyond the rim nothing throws it back.
         let limit = game.level().half_side - RADIUS;
-        place(Shape::Shadow, [x.clamp(-limit, limit), z.clamp(-limit, limit)], SHADOW, radius, &Matrix::IDENTITY);
+        place(Shape::Shadow, [x.clamp(-limit, limit), z.clamp(-limit, limit)], shadow, radius, &Matrix::IDENTITY);
     }
-    place(Shape::Hoop, target.place, HOOP, reach, &Matrix::IDENTITY);
+    place(Shape::Hoop, target.place, hoop, reach, &Matrix::IDENTITY);
     // What it is worth is how large its middle is.
     let worth = I32F32::from_num(target.value()) / 130;
-    place(Shape::Spot, target.place, SPOT, reach * worth, &Matrix::IDENTITY);
+    place(Shape::Spot, target.place, spot, reach * worth, &Matrix::IDENTITY);
     if let Some(digit) = Shape::DIGITS.get(game.combo() as usize).filter(|_| game.combo() > 1) {
         let lying = Matrix::rotation_x(Angle::QUARTER.negated());
-        place(*digit, target.place, COMBO, reach * DIGIT, &lying);
+        place(*digit, target.place, combo, reach * DIGIT, &lying);
     }
     let height = radius - I32F32::from(game.depth());
     place(Shape::Ball, ball.place, height, radius, &turned(game));

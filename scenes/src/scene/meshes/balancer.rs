@@ -14,7 +14,7 @@ pub(super) const COUNT: usize = 15;
 
 /// Room for them.
 pub(super) struct Memory {
-    board: MadeMemory<113, 192, 208>,
+    board: MadeMemory<384, 192, 208>,
     ball: MadeMemory<86, 168, 180>,
     hoop: MadeMemory<32, 32, 48>,
     spots: [MadeMemory<16, 14, 16>; 2],
@@ -40,7 +40,7 @@ impl Memory {
     pub(super) fn models(&mut self, counts: &mut [u16]) -> Result<[Model<'_>; COUNT], MeshError> {
         let [bright, dark] = &mut self.spots;
         let first = [
-            self.board.solid(Corners::Shared, board, None, counts)?,
+            self.board.solid(Corners::Apart, board, None, counts)?,
             self.ball.solid(Corners::Shared, ball, None, counts)?,
             self.hoop.solid(Corners::Shared, hoop, None, counts)?,
             bright.solid(Corners::Shared, |solid| spot(solid, [30, 150, 80]), None, counts)?,

@@ -14,13 +14,13 @@ const KEYS: [(&str, u8, usize); 6] =
     [("d", 0x07, 6), ("e", 0x08, 5), ("spc", 0x2C, 2), ("z", 0x1D, 4), ("r", 0x15, 2), ("w", 0x1A, 5)];
 
 /// One keyboard on the root port, at high speed.
-pub fn on_the_root_port(state: &mut State) -> anyhow::Result<()> {
+pub fn on_the_root_port(state: &State) -> anyhow::Result<()> {
     let rig = Rig::start(state, "usb-keyboard", vec![UsbDevice::keyboard("1")])?;
     check(rig, "usb root: keyboard (0627:0001 class 0x03, high speed")
 }
 
 /// One behind a hub, at full speed.
-pub fn behind_a_hub(state: &mut State) -> anyhow::Result<()> {
+pub fn behind_a_hub(state: &State) -> anyhow::Result<()> {
     let rig = Rig::start(state, "usb-keyboard-behind-hub", vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.3")])?;
     check(rig, "usb 3: keyboard (0627:0001 class 0x03, full speed")
 }

@@ -23,7 +23,7 @@ const REPORTS_A_KEY: u16 = 10;
 
 /// The demonstration's plate, played on the pad: every frame equals the golden one. The pad's tilt is
 /// smoothed report by report, so one that is lost or doubled changes the picture.
-pub fn session_beside_a_keyboard(state: &mut State) -> anyhow::Result<()> {
+pub fn session_beside_a_keyboard(state: &State) -> anyhow::Result<()> {
     let golden = Golden::read(golden::DEMO)?.context("the golden file is missing")?;
     let parts = session::demo()?;
     let (part, golden) = (&parts[0], &golden.scenes[0]);
@@ -57,7 +57,7 @@ pub fn session_beside_a_keyboard(state: &mut State) -> anyhow::Result<()> {
 }
 
 /// 1,200 reports of a pad and 240 of a keyboard while frames are drawn: none is lost, none doubled.
-pub fn long_run(state: &mut State) -> anyhow::Result<()> {
+pub fn long_run(state: &State) -> anyhow::Result<()> {
     let (server, pad) = (Server::new()?, FakePad::new(REPORT_INTERVAL_US));
     server.socket.plug_in(pad.device(Temper::Sony));
     let usb = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1"), server.at("1.2")];

@@ -25,7 +25,7 @@ const REPORTS: u32 = 20;
 
 /// Nothing, a keyboard, nothing, a keyboard … on the root port; then a pad in its place, and another
 /// one in that one's.
-pub fn on_the_root_port(state: &mut State) -> anyhow::Result<()> {
+pub fn on_the_root_port(state: &State) -> anyhow::Result<()> {
     let keyboard = UsbDevice::keyboard("1");
     let mut rig = Rig::start(state, "usb-plugging", Vec::new())?;
     let mut typed = 0;
@@ -70,7 +70,7 @@ fn torn_out_while_it_starts(state: &State) -> anyhow::Result<usize> {
 }
 
 /// The same behind a hub, the keyboard and the pad at once.
-pub fn behind_a_hub(state: &mut State) -> anyhow::Result<()> {
+pub fn behind_a_hub(state: &State) -> anyhow::Result<()> {
     let (server, pad) = (Server::new()?, FakePad::new(0));
     let keyboard = UsbDevice::keyboard("1.1");
     let mut rig = Rig::start(state, "usb-plugging-behind-hub", vec![UsbDevice::hub("1"), server.at("1.2")])?;

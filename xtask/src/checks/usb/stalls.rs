@@ -29,7 +29,7 @@ const FRAMES_PER_SECOND: f64 = 60.0;
 const TOLERANCE: f64 = 0.5;
 
 /// A pad that refuses half of its wake-up wakes by the other half.
-pub fn stalled_requests(state: &mut State) -> anyhow::Result<()> {
+pub fn stalled_requests(state: &State) -> anyhow::Result<()> {
     for (temper, name) in [(Temper::RefusesReading, "reading"), (Temper::RefusesWriting, "writing")] {
         let (server, pad) = (Server::new()?, FakePad::new(0));
         server.socket.plug_in(pad.device(temper));
@@ -51,7 +51,7 @@ pub fn stalled_requests(state: &mut State) -> anyhow::Result<()> {
 }
 
 /// Frames come as fast with a keyboard that is torn out again and again as with none.
-pub fn frame_rate(state: &mut State) -> anyhow::Result<()> {
+pub fn frame_rate(state: &State) -> anyhow::Result<()> {
     let (rate, slowest) = measured(state, "nothing plugged in", |_| Ok(()))?;
     let near = |found: f64| (found - rate).abs() <= TOLERANCE;
     ensure!((rate - FRAMES_PER_SECOND).abs() <= TOLERANCE, "{rate:.2} frames a second with nothing plugged in");
