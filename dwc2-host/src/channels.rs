@@ -30,21 +30,16 @@ enum Turn {
     Later,
     /// No, but maybe in the next (micro)frame.
     NextFrame,
-    /// Yes: what comes first, and the (micro)frame that it goes out in.
-    Now(Rank, u16),
+    /// Yes: its rank, and the (micro)frame that it goes out in.
+    Now(u32, u16),
 }
 
-/// What comes first when several steps are due.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
-    /// Complete splits, those whose start split is oldest first, by the microframes that they have left: they keep the
-    /// order of their start splits (USB 2.0 §11.18.8, as Linux reads it).
-    Complete(u16),
-    /// Interrupt endpoints, those with the shortest interval first: they can wait least for the next frame.
-    Periodic(u32),
-    /// Control and bulk.
-    Rest,
-}
+/// Ranks: of several steps that are due, the lowest comes first.
+///
+/// Complete splits have theirs by the microframes that they have left, so that they keep the order of their start splits
+/// (USB 2.0 §11.18.8, as Linux reads it); interrupt endpoints by their interval, which is more: those with a short one
+/// can wait least for the next frame; control and bulk this.
+const LAST_RANK: u32 = u32::MAX;
 
 impl State<'_> {
     /// A channel's HCINT holds something.
@@ -101,7 +96,7 @@ impl State<'_> {
         // the next, is all that HCCHAR.ODDFRM says (Linux, `hcd.c`, dwc2_hc_set_even_odd_frame).
         let mut frame = None;
         loop {
-            let mut first: Option<(Rank, u16, usize)> = None;
+            let mut first: Option<(u32, u16, usize)> = None;
             let mut watch = false;
             for index in 0..PIPES {
                 match self.turn_of(index, &mut frame, now) {
@@ -127,7 +122,7 @@ impl State<'_> {
             return Turn::Later;
         }
         if !endpoint.periodic() && !endpoint.paced() {
-            return Turn::Now(Rank::Rest, 0);
+            return Turn::Now(LAST_RANK, 0);
         }
         let frame = match *seen {
             Some(frame) => frame,
@@ -136,14 +131,14 @@ impl State<'_> {
         if !endpoint.periodic() {
             let taken = slot.last_frame == Some(frame)
                 || endpoint.route == Route::Preamble && self.preamble_frame == Some(frame);
-            return if taken { Turn::NextFrame } else { Turn::Now(Rank::Rest, frame) };
+            return if taken { Turn::NextFrame } else { Turn::Now(LAST_RANK, frame) };
         }
         let next = (frame + 1) % FRAME_NUMBERS;
         match (endpoint.route, split) {
             (Route::Split { hub, .. }, Split::Complete { start }) => match frames_since(next, start) {
                 0..FIRST_COMPLETE_SPLIT => Turn::NextFrame,
                 age @ FIRST_COMPLETE_SPLIT..=LAST_COMPLETE_SPLIT if !self.runs_older_split(hub, start) => {
-                    Turn::Now(Rank::Complete(LAST_COMPLETE_SPLIT - age), next)
+                    Turn::Now((LAST_COMPLETE_SPLIT - age).into(), next)
                 }
                 FIRST_COMPLETE_SPLIT..=LAST_COMPLETE_SPLIT => Turn::Later,
                 _ => {
@@ -161,11 +156,11 @@ impl State<'_> {
                 } else if self.slots.iter().flatten().any(taken) {
                     Turn::NextFrame
                 } else {
-                    Turn::Now(Rank::Periodic(endpoint.interval_us), next)
+                    Turn::Now(endpoint.interval_us, next)
                 }
             }
             (Route::Preamble, _) if self.preamble_frame == Some(next) => Turn::NextFrame,
-            _ => Turn::Now(Rank::Periodic(endpoint.interval_us), next),
+            _ => Turn::Now(endpoint.interval_us, next),
         }
     }
 
