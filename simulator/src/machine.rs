@@ -95,14 +95,6 @@ impl Machine {
         self.run_until(time, |_| false)
     }
 
-    /// Runs until the console has said something, since power-on.
-    ///
-    /// # Errors
-    /// As [`run_until`](Self::run_until).
-    pub fn run_until_console(&mut self, limit: Clocks, text: &str) -> Result<Event, Violation> {
-        self.run_until(limit, |machine| machine.console_text().contains(text))
-    }
-
     /// Runs until so many frames were shown since power-on.
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use anyhow::{Context, ensure};
 use serde::Deserialize;
 
 use crate::measure::Measurement;
-use crate::yosys::{folder_with_design, run_yosys};
+use crate::yosys::run_yosys;
 
 pub use table::{committed, ensure_fresh, write};
 
@@ -52,15 +52,14 @@ struct Design {
     num_cells_by_type: BTreeMap<String, u32>,
 }
 
-/// Synthesizes the design for the Cyclone V.
+/// Synthesizes the design in a [folder](crate::yosys::folder_with_design) for the Cyclone V.
 ///
 /// # Errors
 /// When Yosys fails (its log is named), or when memories became flip-flops or too many blocks.
-pub fn synthesize(yosys: &Path, units: u32) -> anyhow::Result<Area> {
-    let folder = folder_with_design("area")?;
+pub fn synthesize(yosys: &Path, folder: &Path, units: u32) -> anyhow::Result<Area> {
     let file = |kind: &str| folder.join(format!("n{units}.{kind}"));
     let (statistics, path) = (file("json"), file("path"));
-    run_yosys(yosys, &folder, &format!("n{units}"), &script(units))?;
+    run_yosys(yosys, folder, &format!("n{units}"), &script(units))?;
     let text = fs::read_to_string(&statistics).with_context(|| format!("cannot read {}", statistics.display()))?;
     let Statistics { design } = serde_json::from_str(&text).context("Yosys' statistics are not as expected")?;
     let path = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;

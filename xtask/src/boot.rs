@@ -30,10 +30,7 @@ pub fn start(
     if board.runs_in_qemu() {
         let bootable = Bootable::prepare(board, progress)?;
         let step = progress.step(format!("booting {board} in QEMU"));
-        let machine = bootable.start_with(folder, |options| {
-            options.icount_shift = Some(ICOUNT_SHIFT);
-            options.mesh = mesh;
-        })?;
+        let machine = bootable.start_with_mesh(folder, mesh)?;
         step.done();
         return Ok(Box::new(machine));
     }
@@ -90,7 +87,18 @@ impl Bootable {
     /// # Errors
     /// When QEMU or the firmware does not start.
     pub fn start(&self, folder: &Path) -> anyhow::Result<Emulated> {
-        self.start_with(folder, |options| options.icount_shift = Some(ICOUNT_SHIFT))
+        self.start_with_mesh(folder, None)
+    }
+
+    /// Does the same with a mesh file in memory, if there is one.
+    ///
+    /// # Errors
+    /// As [`start`](Self::start).
+    pub fn start_with_mesh(&self, folder: &Path, mesh: Option<PathBuf>) -> anyhow::Result<Emulated> {
+        self.start_with(folder, |options| {
+            options.icount_shift = Some(ICOUNT_SHIFT);
+            options.mesh = mesh;
+        })
     }
 
     /// Starts the firmware on the wall clock, with other options where `change` wants them.

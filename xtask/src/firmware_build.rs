@@ -44,6 +44,9 @@ fn command(board: Board, features: &[&str], toolchain: &FirmwareToolchain) -> Co
         .arg([&[board.name()], features].concat().join(","))
         .args(["--target", TARGET, "--target-dir"])
         .arg(target_folder());
+    if cfg!(unix) {
+        cargo.env("RUSTC_WORKSPACE_WRAPPER", paths::workspace_root().join("firmware/rustc-thumb"));
+    }
     cargo
 }
 

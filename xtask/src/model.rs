@@ -1,6 +1,8 @@
 //! A model from a file as a mesh that `geometry` draws.
 
-use anyhow::{Context, bail};
+use std::path::Path;
+
+use anyhow::{Context, anyhow, bail};
 use fixed::types::I4F28;
 use geometry::VertexLook;
 use geometry::look::looks_of_faces;
@@ -18,6 +20,14 @@ pub struct Model {
     edges: Vec<[u32; 2]>,
     /// What a stored coordinate is multiplied by to give the file's: 2 to this.
     pub scale_log2: i32,
+}
+
+/// Reads a model's file.
+///
+/// # Errors
+/// When it cannot be read or is malformed. The text names the cause already, which a chain of errors would say again.
+pub fn read(path: &Path) -> anyhow::Result<models::Model> {
+    models::read(path).map_err(|error| anyhow!("{error}"))
 }
 
 impl Model {

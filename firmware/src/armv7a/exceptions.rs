@@ -96,7 +96,7 @@ extern "C" fn prefetch_abort(frame: &FaultFrame) -> ! {
 }
 
 extern "C" fn undefined(frame: &FaultFrame) -> ! {
-    report(format_args!("undefined instruction at {:#010x}", frame.pc), Some(frame))
+    report(format_args!("undefined instruction at {:#010x}", frame.undefined_instruction()), Some(frame))
 }
 
 // The entries from the vectors, in place of cortex-a-rt's, which do not hand on the registers. They keep them in a

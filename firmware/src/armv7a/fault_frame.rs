@@ -18,6 +18,15 @@ pub struct FaultFrame {
     pub cpsr: u32,
 }
 
+impl FaultFrame {
+    /// Returns where an undefined instruction stands: the processor names the one behind it, which is four bytes on in
+    /// ARM code and two in Thumb (ARM DDI 0406, §B1.8.3); the entry takes four off.
+    pub fn undefined_instruction(&self) -> u32 {
+        const THUMB: u32 = 1 << 5;
+        self.pc.wrapping_add(if self.cpsr & THUMB == 0 { 0 } else { 2 })
+    }
+}
+
 const _: () = assert!(size_of::<FaultFrame>() == 17 * 4);
 
 /// Four registers a line, each line ended.
@@ -39,6 +48,12 @@ mod tests {
     extern crate std;
     use super::*;
     use std::string::ToString;
+
+    #[test]
+    fn an_undefined_instruction_is_found_in_arm_and_thumb_code() {
+        let of = |cpsr| FaultFrame { registers: [0; 13], sp: 0, lr: 0, pc: 0x0100_0ffc, cpsr }.undefined_instruction();
+        assert_eq!((of(0x6000_001F), of(0x6000_003F)), (0x0100_0ffc, 0x0100_0ffe));
+    }
 
     #[test]
     fn a_frame_is_printed_four_registers_a_line() {

@@ -116,19 +116,8 @@ impl Shape {
         Self::Nine,
     ];
 
-    /// The digits from 0 to 9.
-    pub const DIGITS: [Self; 10] = [
-        Self::Zero,
-        Self::One,
-        Self::Two,
-        Self::Three,
-        Self::Four,
-        Self::Five,
-        Self::Six,
-        Self::Seven,
-        Self::Eight,
-        Self::Nine,
-    ];
+    /// The digits from 0 to 9: the last of all.
+    pub const DIGITS: [Self; 10] = *Self::ALL.last_chunk().expect("there are more shapes than digits");
 }
 
 /// A mesh with all that any style needs of it.

@@ -13,7 +13,6 @@ use models::compile::{Options, compile};
 use super::State;
 use crate::cli::Board;
 use crate::machine::{Link, Machine, with_host_and_mesh};
-use crate::qemu::ICOUNT_SHIFT;
 
 /// Rings and sides of a torus of 70,000 triangles.
 const RINGS: u32 = 250;
@@ -47,10 +46,7 @@ fn on_board(state: &State, board: Board, mesh: &[u8], line: &str) -> anyhow::Res
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let file = folder.join("in-memory.mesh");
     fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
-    let mut machine = state.bootable(board)?.start_with(&folder, |options| {
-        options.icount_shift = Some(ICOUNT_SHIFT);
-        options.mesh = Some(file);
-    })?;
+    let mut machine = state.bootable(board)?.start_with_mesh(&folder, Some(file))?;
     let told =
         machine.qemu().wait_for_line("what the firmware says of the mesh", PATIENCE, |text| text.starts_with(line))?;
     println!("{board}: {told}");

@@ -8,6 +8,7 @@ use crate::progress::Progress;
 use crate::setup::ensure_yosys;
 use crate::table::{Column, Table};
 use crate::verilated::UNITS;
+use crate::yosys::folder_with_design;
 
 /// Synthesizes, and keeps `rtl/README.md` fresh.
 ///
@@ -26,10 +27,11 @@ pub fn run(arguments: &AreaArguments) -> anyhow::Result<()> {
         Column::number("DSP"),
         Column::number("longest path, cells"),
     ]);
+    let folder = folder_with_design("area")?;
     let mut areas = Vec::new();
     for units in UNITS.into_iter().filter(|units| arguments.units.is_none_or(|only| only == *units)) {
         let step = progress.step(format!("synthesizing with {units} pixel unit{}", if units == 1 { "" } else { "s" }));
-        let area = area::synthesize(&yosys, units)?;
+        let area = area::synthesize(&yosys, &folder, units)?;
         step.done();
         let cells = [area.units, area.aluts, area.flip_flops, area.m10k, area.dsp, area.longest_path];
         table.row(cells.map(|cell| cell.to_string()));

@@ -2,10 +2,11 @@
 
 use std::time::Instant;
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use models::compile::{CACHE, Compiled, Looks, Options, Report, compile};
 
 use crate::cli::MeshArguments;
+use crate::model;
 use crate::table::{Column, Table, thousands};
 
 /// Turns the model into a `.mesh` file.
@@ -15,8 +16,7 @@ use crate::table::{Column, Table, thousands};
 /// When the model is malformed, or the file cannot be written.
 pub fn run(arguments: &MeshArguments) -> anyhow::Result<()> {
     let started = Instant::now();
-    // Its text names the cause already, which the chain of errors would say again.
-    let model = models::read(&arguments.model).map_err(|error| anyhow!("{error}"))?;
+    let model = model::read(&arguments.model)?;
     let options = Options {
         looks: match (arguments.flat, arguments.smooth) {
             (true, _) => Looks::Flat,

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use firmware::style::Style;
 use fpga_regs::screen::{HEIGHT, WIDTH};
 use geometry::{Culling, Matrix};
 
 use crate::cli::RenderArguments;
-use crate::model::Model;
+use crate::model::{self, Model};
 use crate::picture::{write_depth_pgm, write_png};
 use crate::render::camera::{Fit, of_window, to_matrix};
 use crate::render::{SetUp, View, mvp, render};
@@ -24,8 +24,7 @@ use crate::table::thousands;
 /// When the model or the matrix is malformed, or an output cannot be written.
 pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     let started = Instant::now();
-    // Its text names the cause already, which the chain of errors would say again.
-    let source = models::read(&arguments.model).map_err(|error| anyhow!("{error}"))?;
+    let source = model::read(&arguments.model)?;
     source.notes.iter().for_each(|note| println!("note: {note}"));
     let model = Model::new(&source).with_context(|| format!("cannot use {}", arguments.model.display()))?;
     let culling = if arguments.two_sided { Culling::None } else { Culling::BackFaces };

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::{Context, anyhow, bail, ensure};
+use anyhow::{Context, bail, ensure};
 use firmware::scene::Scene;
 use models::Kind;
 use models::compile::{Options, compile};
@@ -12,6 +12,7 @@ use models::compile::{Options, compile};
 use crate::boot::{self, Bootable, start_with_log};
 use crate::cli::{Board, RunArguments};
 use crate::machine::{Emulated, Link};
+use crate::model;
 use crate::paths::{for_display, target_folder};
 use crate::picture::write_png;
 use crate::progress::Progress;
@@ -91,8 +92,7 @@ fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
 /// Returns the model that is named as a `.mesh` file, in `folder` unless it is one already.
 fn mesh_file(arguments: &RunArguments, folder: &Path) -> anyhow::Result<Option<PathBuf>> {
     let Some(path) = &arguments.model else { return Ok(None) };
-    // Its text names the cause already, which the chain of errors would say again.
-    let model = models::read(path).map_err(|error| anyhow!("{error}"))?;
+    let model = model::read(path)?;
     if Kind::of_name(path) == Some(Kind::Mesh) {
         return Ok(Some(path.clone()));
     }
