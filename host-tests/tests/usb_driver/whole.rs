@@ -5,10 +5,12 @@
 //! | `times` | how long it takes to the first report, and from a report to the state |
 //! | `cost` | how often the driver runs, and what it asks of the core's registers |
 //! | `swaps` | one device in another's place, at any moment |
+//! | `beside` | a good device that starts beside one that fails |
 //! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
 mod cost;
+mod beside;
 mod rogues;
 mod swaps;
 mod times;
