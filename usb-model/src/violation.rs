@@ -60,6 +60,7 @@ rules! {
     ResetTooShort: "A root port signals reset for 50 ms.", "USB 2.0 §7.1.7.5, TDRSTR";
     ResetRecovery: "A device has 10 ms after a reset before it is talked to.", "USB 2.0 §7.1.7.5, TRSTRCY";
     ResetUnderTraffic: "The bus is reset while no channel runs.", "Linux `dwc2/hcd.c` dwc2_hcd_reset_func";
+    AddressShared: "No two devices answer one token: only one at a time is at address 0.", "USB 2.0 §9.1.1.3 and §9.1.1.4";
     PortNotEnabled: "A channel is started only while the port is enabled, as far as software can know.", "Linux `dwc2/hcd.c` dwc2_hcd_urb_enqueue";
     NotUnmasked: "A channel is started with its end unmasked: HCINTMSK, HAINTMSK, GINTMSK, GAHBCFG.", "Linux `dwc2/hcd.c` dwc2_hc_enable_dma_ints";
     NotAcknowledged: "A channel is started with its HCINT clear.", "Linux `dwc2/hcd.c` dwc2_hc_init";

@@ -9,8 +9,8 @@
 //! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
-mod cost;
 mod beside;
+mod cost;
 mod rogues;
 mod swaps;
 mod times;

@@ -171,10 +171,8 @@ impl Port {
                 let route = link.route.below(link.address, self.number, place, speed);
                 memory.slots.begin(device, route);
             }
-            _ => {
-                self.let_go(memory);
-                self.due = Some(memory.after(Wait::RETRY_PAUSE));
-            }
+            // It may be at address 0 all the same.
+            _ => return Some(Task::CutOff),
         }
         None
     }

@@ -35,3 +35,28 @@ fn whoever_takes_anothers_place_is_found() {
         }
     }
 }
+
+/// What is said to the one that was reset is not said to the one that takes its place, whatever speeds they have.
+#[test]
+fn whoever_goes_while_it_starts_breaks_no_rule() {
+    for speeds in [[Speed::High, Speed::Full], [Speed::Low, Speed::High]] {
+        let mut whole = Whole::new(Config::new());
+        let hub = Shared::new(Hub::new(Speed::High));
+        // Somebody who is read, so that the hub is spoken to all the time.
+        hub.lock().plug(2, Box::new(keyboard(Form::Boot, Speed::Low)));
+        whole.rig.plug(hub.clone());
+        assert!(whole.run_until(1_000_000, |whole| whole.is_attached(port(2), Kind::BootKeyboard)));
+        // The hub tells of it, it settles, is reset, and is asked for all that it has.
+        for moment in (100_000..500_000).step_by(1_700) {
+            let [first, second] = speeds.map(|speed| Box::new(keyboard(Form::Boot, speed)));
+            hub.lock().plug(1, first);
+            whole.run(moment);
+            hub.lock().plug(1, second);
+            whole.run(1_200_000);
+            assert!(whole.is_attached(port(1), Kind::BootKeyboard), "after {moment} us: {:?}", whole.events);
+            drop(hub.lock().unplug(1));
+            whole.run(300_000);
+            whole.events.clear();
+        }
+    }
+}
