@@ -11,9 +11,12 @@
 //!
 //! # How it runs
 //!
-//! [`Dwc2::on_interrupt`] and [`Dwc2::poll`] do the same: take what the core reports, go on with every
-//! transfer and with the root port, and wake whoever waits. Neither ever waits. Call `poll` at 1 kHz (time-outs and
-//! the port's delays live on it), and `on_interrupt` from the core's interrupt.
+//! [`Dwc2::on_interrupt`] and [`Dwc2::poll`] take what the core reports, go on with every transfer and with the root
+//! port, and wake whoever waits. Neither ever waits. Call `poll` at 1 kHz (time-outs, the port's delays and the turns
+//! of slow endpoints live on it), and `on_interrupt` from the core's interrupt. The start of a frame interrupts only while
+//! somebody waits for one: least often where `poll` comes in the first microframes of a frame, which start splits go
+//! out in.
+//!
 //! Without the interrupt everything works but interrupt endpoints behind a transaction translator: their complete splits are
 //! due within microframes. A board without it takes [`SpeedLimit::Full`].
 //!

@@ -77,7 +77,7 @@ rules! {
     Toggle: "Data goes out, and is expected, with the toggle that the endpoint has reached.", "USB 2.0 §8.6; HCTSIZ.PID";
     LowSpeedBit: "HCCHAR.LSPDDEV tells whether the device is a low-speed one.", "Linux `dwc2/hcd.c` dwc2_hc_init";
     PeriodicCount: "HCCHAR's count is at least one, and an interrupt endpoint gets one packet a frame.", "Linux `dwc2/hcd.c`; USB 2.0 §5.7.3";
-    OddFrame: "HCCHAR.ODDFRM names the next (micro)frame, not the present one.", "Linux `dwc2/hcd.c` dwc2_hc_set_even_odd_frame";
+    OddFrame: "HCCHAR.ODDFRM names the (micro)frame after the one that HFNUM showed, and HFNUM was read in this one or the one before.", "Linux `dwc2/hcd.c` dwc2_hc_set_even_odd_frame";
     Ping: "After NYET, high-speed data to a device starts with a PING.", "USB 2.0 §8.5.1; HCTSIZ.DOPNG";
     SplitMissing: "A slower device behind a high-speed hub is reached by split transactions.", "USB 2.0 §11.14";
     SplitOnSlowBus: "Only a high-speed bus has split transactions.", "USB 2.0 §11.14";

@@ -11,6 +11,7 @@ use std::task::{Context, Poll, Wake, Waker};
 use dwc2_host::{Clock, Config, DMA_BYTES, DmaMemory, Dwc2, Fault, Registers};
 use usb_model::dwc2::{Build, Core};
 use usb_model::memory::CachedMemory;
+use usb_model::random::Random;
 use usb_model::violation::{Log, Rule};
 use usb_model::wire::Device;
 
@@ -59,12 +60,20 @@ pub struct Cost {
     pub frame_reads_most: u64,
 }
 
+/// A processor that takes its time: microseconds pass between its accesses, and before it answers an interrupt.
+struct Pace {
+    random: Random,
+    /// An interrupt is answered sooner than this, in microseconds.
+    latency: usize,
+}
+
 /// The core, its memory, and what is done to the accesses.
 pub struct Machine {
     pub core: Core,
     pub memory: CachedMemory,
     pub tamper: Tamper,
     pub cost: Cost,
+    pace: Option<Pace>,
 }
 
 impl Machine {
@@ -77,6 +86,22 @@ impl Machine {
         self.core.advance(until, &mut self.memory);
         self.memory.set_now(self.core.now());
     }
+
+    /// What an access takes: a microsecond for two to four of them.
+    fn take_time(&mut self) {
+        let Some(pace) = &mut self.pace else { return };
+        if pace.random.once_in(3) {
+            let until = self.core.now() + 1;
+            while self.core.now() < until {
+                self.advance(until);
+            }
+        }
+    }
+
+    /// What an interrupt takes to be answered, if that is not the same every time.
+    fn latency(&mut self) -> Option<u64> {
+        self.pace.as_mut().map(|pace| pace.random.below(pace.latency) as u64)
+    }
 }
 
 struct TestBoard(Arc<Mutex<Machine>>);
@@ -88,6 +113,7 @@ fn lock(machine: &Mutex<Machine>) -> MutexGuard<'_, Machine> {
 impl Registers for TestBoard {
     fn read_register(&mut self, offset: u32) -> u32 {
         let mut machine = lock(&self.0);
+        machine.take_time();
         machine.cost.reads += 1;
         machine.cost.frame_reads += u64::from(offset == HFNUM);
         let value = machine.core.read(offset);
@@ -99,6 +125,7 @@ impl Registers for TestBoard {
 
     fn write_register(&mut self, offset: u32, value: u32) {
         let mut machine = lock(&self.0);
+        machine.take_time();
         machine.cost.writes += 1;
         let Some(mut tamper) = machine.tamper.write.take() else { return machine.write(offset, value) };
         if let Some(value) = tamper(&mut machine, offset, value) {
@@ -186,7 +213,13 @@ impl Rig {
         let log = Log::default();
         let core = Core::new(build, log.clone());
         let memory = CachedMemory::new(BASE, DMA_BYTES, log.clone());
-        let machine = Arc::new(Mutex::new(Machine { core, memory, tamper: Tamper::default(), cost: Cost::default() }));
+        let machine = Arc::new(Mutex::new(Machine {
+            core,
+            memory,
+            tamper: Tamper::default(),
+            cost: Cost::default(),
+            pace: None,
+        }));
         let board = Box::leak(Box::new(TestBoard(Arc::clone(&machine))));
         let driver = Box::leak(Box::new(Dwc2::new(board, config)));
         let sleepers = Sleepers::default();
@@ -253,7 +286,8 @@ impl Rig {
             }
             let up = line(&machine);
             if up {
-                let handled = machine.core.now() + self.latency.get();
+                let latency = machine.latency().unwrap_or(self.latency.get());
+                let handled = machine.core.now() + latency;
                 machine.advance(handled);
             }
             up
@@ -302,6 +336,11 @@ impl Rig {
         let cost = &mut self.machine().cost;
         cost.services += 1;
         cost.frame_reads_most = cost.frame_reads_most.max(cost.frame_reads - before);
+    }
+
+    /// Lets time pass between two accesses, and up to `latency` microseconds before an interrupt is answered.
+    pub fn take_time(&self, seed: u64, latency: usize) {
+        self.machine().pace = Some(Pace { random: Random(seed), latency });
     }
 
     /// Lets the polls come so much later from now on.
