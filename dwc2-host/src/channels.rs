@@ -9,7 +9,6 @@ use crate::slot::{Activity, Fate, Slot, Split};
 use crate::state::State;
 use crate::timing::{HALT_LIMIT_US, SPLIT_DRAIN_US};
 use crate::transfer::{Program, Stage};
-use crate::tt_clear::TtClear;
 use crate::{Fault, PIPES, TransferError};
 
 /// The last microframe of a frame in which a periodic start split goes out: its complete splits end in the same frame,
@@ -325,8 +324,8 @@ impl State<'_> {
                     self.halt(index, now);
                 }
                 Activity::Waiting { .. } if effort.fate != Fate::Wanted && now >= effort.drained_by => {
-                    self.tt_clears.push(TtClear::of(&slot.endpoint, &effort.transfer));
-                    self.end(index, effort.fate.result());
+                    let fate = effort.fate;
+                    self.end(index, fate.result());
                 }
                 Activity::Running { .. } | Activity::Waiting { .. } if passed(effort.deadline) => {
                     self.abandon(index, Fate::Failed(TransferError::Timeout), now);

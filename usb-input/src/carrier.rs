@@ -51,7 +51,7 @@ async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, 
         let request = mailbox.next_request().await;
         let answer = {
             let mut data = mailbox.data_mut(request.length.into());
-            match select(transfer(allocator, &request, &mut data), memory.sleep(request.limit())).await {
+            match select(transfer(allocator, mailbox, &request, &mut data), memory.sleep(request.limit())).await {
                 Either::First(outcome) => outcome,
                 Either::Second(()) => Err(TransferError::Pipe(PipeError::Timeout)),
             }
@@ -60,7 +60,12 @@ async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, 
     }
 }
 
-async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request, data: &mut [u8]) -> Outcome {
+async fn transfer<'d, A: UsbHostAllocator<'d>>(
+    allocator: &A,
+    mailbox: &Mailbox,
+    request: &Request,
+    data: &mut [u8],
+) -> Outcome {
     let Some(setup) = request.setup else {
         let mut pipe = take_pipe::<A, pipe::Interrupt, pipe::Out>(allocator, &request.way).await?;
         return pipe.request_out(data, false).await.map(|()| data.len()).map_err(TransferError::Pipe);
@@ -73,11 +78,15 @@ async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request,
     let packet = setup.bytes(request.length);
     let mut tries = 1;
     loop {
+        mailbox.until_clear(request.way).await;
         let outcome = if setup.reads() {
             pipe.control_in(&packet, data).await
         } else {
             pipe.control_out(&packet, data).await.map(|()| data.len())
         };
+        if matches!(outcome, Err(error) if error != PipeError::Stall) {
+            mailbox.set_muddle(request.way);
+        }
         match outcome {
             Err(PipeError::BadResponse | PipeError::DataToggleError | PipeError::Canceled) if tries < TRIES => {
                 tries += 1;

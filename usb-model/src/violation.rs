@@ -89,6 +89,7 @@ rules! {
     CompleteSplitOrder: "Complete splits of one microframe keep the order of their start splits.", "USB 2.0 §11.18.8, as Linux cites it";
     CompleteWithoutStart: "A complete split follows a start split for the same endpoint.", "USB 2.0 §11.14";
     SplitRestarted: "A start split that was taken is followed by complete splits until they are answered, or fail.", "USB 2.0 §11.17.1";
+    TtNotCleared: "After three complete splits in a row that failed, a control or bulk endpoint's buffer is cleared before its next transfer.", "USB 2.0 §11.17.1 and §11.24.2.3; Linux `core/hub.c` usb_hub_clear_tt_buffer";
     SplitAbandoned: "What a translator has for a control or bulk endpoint is fetched, or cleared.", "USB 2.0 §11.17.4 and §11.24.2.3";
 }
 
