@@ -11,7 +11,7 @@ use embassy_usb_driver::{EndpointInfo, EndpointType};
 use crate::hardware::Core;
 use crate::port::Phase;
 use crate::state::State;
-use crate::{Board, Config, Fault, Pipe};
+use crate::{Board, Config, Fault, Pipe, SpeedLimit};
 
 /// One DWC2 core and all that the driver knows of it.
 ///
@@ -50,6 +50,13 @@ impl<'d> Dwc2<'d> {
     /// Takes the last fault, if there was one since the last call. The driver mends it by itself.
     pub fn take_fault(&self) -> Option<Fault> {
         self.with(|state| state.fault.take())
+    }
+
+    /// Limits the root port's speed from now on. A change ends all transfers, turns the port off and starts the core
+    /// anew, which takes a second; devices go and come again.
+    pub fn limit_speed(&self, limit: SpeedLimit) {
+        self.with(|state| state.limit_speed(limit));
+        self.poll();
     }
 
     /// Ends all transfers, turns the port's power and the interrupts off. [`start`](Dwc2::start) undoes it.

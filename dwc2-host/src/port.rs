@@ -216,6 +216,16 @@ impl State<'_> {
         self.phase = Phase::Off;
     }
 
+    /// Takes another speed limit: the port goes off, and the core is started anew after the pause that follows a fault.
+    pub(crate) fn limit_speed(&mut self, limit: SpeedLimit) {
+        if core::mem::replace(&mut self.config.speed_limit, limit) == limit || self.phase == Phase::Off {
+            return;
+        }
+        let now = self.hardware.now();
+        self.shut_down();
+        self.enter(Phase::Failed, now + FAULT_PAUSE_US);
+    }
+
     /// High speed is out of the question.
     pub(crate) fn full_speed_only(&self) -> bool {
         self.config.speed_limit == SpeedLimit::Full

@@ -7,16 +7,17 @@
 //! # use embassy_usb_driver::host::UsbHostController;
 //! # fn example<'d>(controller: impl UsbHostController<'d>, clock: impl usb_input::Clock) {
 //! use core::pin::pin;
-//! use usb_input::{Config, Memory, UsbInput};
+//! use usb_input::{Config, Memory, Merge, UsbInput};
 //!
 //! let mut controls = controls::Controls::new(controls::Config::default());
 //! let memory = Memory::new(Config::default());
 //! let bus = pin!(usb_input::run(controller, clock, &memory));
 //! let mut usb = UsbInput::new(bus, &memory);
+//! let mut merge = Merge::default();
 //! loop {
 //!     usb.poll(); // once a millisecond, say
 //!     while let Some(event) = usb.next_event() {
-//!         if let Some(report) = event.report() {
+//!         if let Some(report) = merge.report(&event) {
 //!             let _ = controls.accept(report);
 //!         } // else: for the console
 //!     }
@@ -38,6 +39,7 @@ mod dualshock3;
 mod dualshock4;
 mod ear;
 mod event;
+mod fallback;
 mod fault;
 mod hid;
 mod hub;
@@ -46,6 +48,7 @@ mod input;
 mod link;
 mod mailbox;
 mod memory;
+mod merge;
 mod place;
 mod reader;
 mod root;
@@ -62,10 +65,12 @@ mod usb_input;
 pub use clock::Clock;
 pub use config::Config;
 pub use event::Event;
+pub use fallback::Fallback;
 pub use fault::{Fault, Step};
 pub use hub::HUB_PORTS_MAXIMUM;
 pub use identity::{Identity, Kind};
 pub use memory::Memory;
+pub use merge::Merge;
 pub use place::Place;
 pub use run::run;
 pub use slots::DEVICES_MAXIMUM;

@@ -1,6 +1,7 @@
 //! What U-Boot's `go` tells the program: `rbf IMAGE BYTES` has it configure the FPGA with the image (.rbf) that was
-//! loaded to `IMAGE`, `mesh FILE BYTES` show the mesh file that was loaded to `FILE`. All numbers are
-//! hexadecimal, as U-Boot's are.
+//! loaded to `IMAGE`, `mesh FILE BYTES` show the mesh file that was loaded to `FILE`; `usb full` keeps the USB port at full
+//! speed, `usb pulse` gives the pad's motor a short pulse when the pose is frozen. All numbers are hexadecimal, as
+//! U-Boot's are.
 //!
 //! ```text
 //! load mmc 0:1 0x08000000 halfspace.rbf
@@ -10,16 +11,20 @@
 //! ```
 
 use core::fmt;
+
 use heapless::{String, Vec};
 
 use super::memory_map::{FPGA_IMAGE, FPGA_IMAGE_END};
 
 /// Words that are looked at, and the longest word.
-const WORDS: usize = 8;
+const WORDS: usize = 12;
 const LENGTH: usize = 24;
 
+/// A word.
+type Word = String<LENGTH>;
+
 /// The words after `go`, the address of the program first.
-pub type Words = Vec<String<LENGTH>, WORDS>;
+pub type Words = Vec<Word, WORDS>;
 
 /// A file in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,19 +42,32 @@ pub struct Asked {
     pub image: Option<Image>,
     /// The mesh file that is to be shown.
     pub mesh: Option<Image>,
+    /// What USB is to do.
+    pub usb: UsbWishes,
+}
+
+/// What USB is to do otherwise than it does by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct UsbWishes {
+    /// The port stays at full speed.
+    pub full_speed: bool,
+    /// The pad's motor gives a pulse when the pose is frozen.
+    pub pulse: bool,
 }
 
 /// Why the words could not be followed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ArgumentError {
     /// A word that means nothing here.
-    Unknown(String<LENGTH>),
+    Unknown(Word),
     /// `rbf` or `mesh` without its two numbers.
-    Missing(String<LENGTH>),
+    Missing(Word),
     /// `rbf` or `mesh` a second time.
-    Twice(String<LENGTH>),
+    Twice(Word),
     /// A word that is no hexadecimal number.
-    NotANumber(String<LENGTH>),
+    NotANumber(Word),
+    /// `usb` without a word that it knows.
+    Usb,
     /// A file that does not lie where the program can read it.
     Misplaced(Image),
 }
@@ -60,6 +78,7 @@ impl fmt::Display for ArgumentError {
             Self::Unknown(word) => write!(out, "argument `{word}` means nothing")?,
             Self::Missing(word) => write!(out, "argument `{word}` wants two numbers")?,
             Self::Twice(word) => write!(out, "argument `{word}` comes twice")?,
+            Self::Usb => return out.write_str("argument `usb` wants `full` or `pulse` behind it"),
             Self::NotANumber(word) => write!(out, "argument `{word}` is no hexadecimal number")?,
             Self::Misplaced(Image { address, bytes }) => write!(
                 out,
@@ -82,6 +101,10 @@ pub fn asked(words: &Words) -> Result<Asked, ArgumentError> {
         let slot = match name.as_str() {
             "rbf" => &mut asked.image,
             "mesh" => &mut asked.mesh,
+            "usb" => {
+                rest = usb_word(others, &mut asked.usb)?;
+                continue;
+            }
             _ => return Err(ArgumentError::Unknown(name.clone())),
         };
         let [address, bytes, others @ ..] = others else { return Err(ArgumentError::Missing(name.clone())) };
@@ -93,7 +116,18 @@ pub fn asked(words: &Words) -> Result<Asked, ArgumentError> {
     Ok(asked)
 }
 
-fn image(address: &String<LENGTH>, bytes: &String<LENGTH>) -> Result<Image, ArgumentError> {
+/// Takes the word behind `usb`; returns the rest.
+fn usb_word<'a>(words: &'a [Word], wishes: &mut UsbWishes) -> Result<&'a [Word], ArgumentError> {
+    let (word, rest) = words.split_first().ok_or(ArgumentError::Usb)?;
+    match word.as_str() {
+        "full" => wishes.full_speed = true,
+        "pulse" => wishes.pulse = true,
+        _ => return Err(ArgumentError::Usb),
+    }
+    Ok(rest)
+}
+
+fn image(address: &Word, bytes: &Word) -> Result<Image, ArgumentError> {
     let image = Image { address: hexadecimal(address)?, bytes: hexadecimal(bytes)? };
     let end = u64::from(image.address) + u64::from(image.bytes).next_multiple_of(4);
     let inside = image.address >= FPGA_IMAGE && end <= u64::from(FPGA_IMAGE_END);
@@ -104,7 +138,7 @@ fn image(address: &String<LENGTH>, bytes: &String<LENGTH>) -> Result<Image, Argu
     }
 }
 
-fn hexadecimal(word: &String<LENGTH>) -> Result<u32, ArgumentError> {
+fn hexadecimal(word: &Word) -> Result<u32, ArgumentError> {
     let digits = word.strip_prefix("0x").unwrap_or(word);
     // `from_str_radix` takes a sign, U-Boot does not.
     if digits.starts_with('+') {
@@ -169,15 +203,32 @@ mod tests {
         asked(&words)
     }
 
+    fn files(image: Option<Image>, mesh: Option<Image>) -> Asked {
+        Asked { image, mesh, usb: UsbWishes::default() }
+    }
+
+    #[test]
+    fn usb_is_held_at_full_speed_and_the_motor_let_on() {
+        let full = parse("1000000 usb full").unwrap();
+        assert_eq!(full.usb, UsbWishes { full_speed: true, pulse: false });
+        let all = parse("1000000 usb pulse rbf 8000000 100 mesh a000000 77 usb full").unwrap();
+        assert_eq!(all.usb, UsbWishes { full_speed: true, pulse: true });
+        assert!(all.image.is_some() && all.mesh.is_some());
+        for line in ["1000000 usb", "1000000 usb fast"] {
+            let error = parse(line).unwrap_err().to_string();
+            assert_eq!(error, "argument `usb` wants `full` or `pulse` behind it");
+        }
+    }
+
     #[test]
     fn files_are_named_in_hexadecimal_with_or_without_a_prefix() {
         let image = Some(Image { address: 0x0800_0000, bytes: 0x001a_2b3c });
         let mesh = Some(Image { address: 0x0a00_0000, bytes: 0x77 });
-        assert_eq!(parse("0x01000000 rbf 0x08000000 1a2b3c"), Ok(Asked { image, mesh: None }));
-        assert_eq!(parse("01000000 rbf 08000000 0x1A2B3C"), Ok(Asked { image, mesh: None }));
-        assert_eq!(parse("01000000 mesh a000000 77"), Ok(Asked { image: None, mesh }));
-        assert_eq!(parse("01000000 mesh a000000 77 rbf 8000000 1a2b3c"), Ok(Asked { image, mesh }));
-        assert_eq!(parse("01000000 rbf 8000000 1a2b3c mesh a000000 77"), Ok(Asked { image, mesh }));
+        assert_eq!(parse("0x01000000 rbf 0x08000000 1a2b3c"), Ok(files(image, None)));
+        assert_eq!(parse("01000000 rbf 08000000 0x1A2B3C"), Ok(files(image, None)));
+        assert_eq!(parse("01000000 mesh a000000 77"), Ok(files(None, mesh)));
+        assert_eq!(parse("01000000 mesh a000000 77 rbf 8000000 1a2b3c"), Ok(files(image, mesh)));
+        assert_eq!(parse("01000000 rbf 8000000 1a2b3c mesh a000000 77"), Ok(files(image, mesh)));
         assert_eq!(parse("0x01000000"), Ok(Asked::default()));
         assert_eq!(asked(&Words::new()), Ok(Asked::default()));
     }

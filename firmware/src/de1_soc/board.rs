@@ -4,11 +4,12 @@ use core::cell::Cell;
 use core::fmt::Write as _;
 
 use critical_section::Mutex;
+use dwc2_host::SpeedLimit;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
 use heapless::spsc::Queue;
 
-use super::arguments::{self, Words};
+use super::arguments::{self, UsbWishes, Words};
 use super::blink::Blink;
 use super::bridges::Bridges;
 use super::fpga::Fpga;
@@ -36,7 +37,7 @@ use crate::cortex_a9::private_timer::PrivateTimer;
 use crate::cortex_a9::start;
 use crate::mmio::Registers;
 use crate::serial::{Config, Console, Link};
-use crate::usb::{Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
+use crate::usb::{self, Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
 
 /// Bytes that the link queues: about a third of a second at 115,200 baud.
 const LINK_QUEUE: usize = 4096;
@@ -140,7 +141,9 @@ impl Board {
             Delay::new(clock).delay_us(USB_RESET_US);
             resets.release(Peripheral::Usb1);
             let core = Dwc2Core::at(USB, USB_MEMORY, clock, drain_to_memory);
-            let usb = Service::new(&USB_ROOM, core, dwc2_host::Config::new(), clock).expect("the room is taken once");
+            // What cannot be followed is told once there is a console.
+            let wishes = arguments::asked(&arguments).unwrap_or_default().usb;
+            let usb = Service::new(&USB_ROOM, core, usb_config(wishes), clock).expect("the room is taken once");
 
             for interrupt in [InterruptId::PRIVATE_TIMER, UART_INTERRUPT, USB_INTERRUPT] {
                 distributor.enable(interrupt);
@@ -178,6 +181,14 @@ impl Board {
                 arguments,
             }
         }
+    }
+}
+
+fn usb_config(UsbWishes { full_speed, pulse }: UsbWishes) -> usb::Config {
+    let limit = if full_speed { SpeedLimit::Full } else { SpeedLimit::High };
+    usb::Config {
+        controller: dwc2_host::Config::new().with_speed_limit(limit),
+        devices: usb_input::Config { pulse_on_freeze: pulse, ..usb_input::Config::default() },
     }
 }
 

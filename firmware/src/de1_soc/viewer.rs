@@ -24,7 +24,8 @@ use crate::cortex_a9::global_timer::GlobalTimer;
 use crate::cortex_a9::start;
 use crate::intake::Intake;
 use crate::serial::{Console, Link};
-use crate::usb::{Service, tell};
+use crate::usb::{Service, Taken, take_in};
+use usb_input::Merge;
 
 /// Frames after which a run is a good one, and failures before it count no more: ten seconds.
 const GOOD_RUN_FRAMES: u32 = 600;
@@ -42,6 +43,7 @@ pub(super) struct ViewerBoard {
     pub(super) cause: ResetCause,
     pub(super) verdict: Verdict,
     pub(super) arguments: Words,
+    merge: Merge,
     readout: Readout,
     /// The score, while the game is played.
     score: Option<u32>,
@@ -72,6 +74,7 @@ impl ViewerBoard {
             cause,
             verdict,
             arguments,
+            merge: Merge::default(),
             readout,
             score,
             told,
@@ -145,17 +148,9 @@ impl Board for ViewerBoard {
     }
 
     fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
-        let mut unreadable = 0;
-        while let Some(event) = with_usb(Service::next_event).flatten() {
-            if let Some(report) = event.report() {
-                unreadable += u32::from(intake.accept(report).is_err());
-            }
-            let _ = tell(&event, &mut self.console);
-        }
-        if let Some(fault) = with_usb(Service::take_fault).flatten() {
-            self.count_fault();
-            let _ = writeln!(self.console, "usb: {fault}");
-        }
+        let next = || with_usb(Service::next_news).flatten();
+        let Taken { mut unreadable, faults } = take_in(next, &mut self.merge, intake, &mut self.console);
+        (0..faults).for_each(|_| self.count_fault());
         let report = self.panel_report();
         if self.told.replace(report) != Some(report) {
             unreadable += u32::from(intake.accept(Report::Panel(&report.to_bytes())).is_err());

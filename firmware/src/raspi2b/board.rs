@@ -15,7 +15,7 @@ use crate::armv7a::semihosting;
 use crate::cortex_a7;
 use crate::pl011::Pl011;
 use crate::serial::{Config, Link};
-use crate::usb::{Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
+use crate::usb::{self, Dwc2Core, Now, Room, Service, TICK_MICROSECONDS};
 use core::cell::Cell;
 use core::fmt::Write;
 use critical_section::Mutex;
@@ -28,7 +28,7 @@ const LINK_QUEUE: usize = 4096;
 const BAUD: u32 = 115_200;
 /// QEMU's model lets a channel run for ever whose device has gone, or is one of the PC's and has
 /// nothing to say: neither is a fault.
-const USB_CONFIG: dwc2_host::Config = dwc2_host::Config::new().with_halt_limit_us(None);
+const USB_CONTROLLER: dwc2_host::Config = dwc2_host::Config::new().with_halt_limit_us(None);
 
 static TAKEN: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 
@@ -91,7 +91,8 @@ impl Board {
             let controller = InterruptController::at(INTERRUPT_CONTROLLER);
             controller.configure();
             let core = Dwc2Core::at(USB, USB_MEMORY, clock, cortex_ar::asm::dsb);
-            let usb = Service::new(&USB_ROOM, core, USB_CONFIG, clock).expect("the room is taken once");
+            let config = usb::Config { controller: USB_CONTROLLER, devices: usb_input::Config::default() };
+            let usb = Service::new(&USB_ROOM, core, config, clock).expect("the room is taken once");
             let ticker = clock.ticker(TICK_MICROSECONDS);
             interrupts::install(Sources { controller, ticker, link: link_interrupt, usb });
             for interrupt in [TIMER_INTERRUPT, LINK_INTERRUPT, USB_INTERRUPT] {

@@ -17,7 +17,8 @@ use crate::left_in_memory;
 use crate::pl011::Pl011;
 use crate::serial::Link;
 use crate::software_fpga::{self, ClockWait, ModelMemory, ModelPort, StartError};
-use crate::usb::{Service, tell};
+use crate::usb::{Service, Taken, take_in};
+use usb_input::Merge;
 
 /// What the FPGA's VGA output shows, nearly: 59.94 frames in a second.
 const FRAME_MICROSECONDS: u64 = 16_667;
@@ -27,6 +28,7 @@ pub struct ViewerBoard {
     console: Console,
     link: Link<Pl011>,
     clock: SystemTimer,
+    merge: Merge,
     /// When the next frame is due.
     next_frame: u64,
     /// Interrupts that nobody asked for, as far as the console was told.
@@ -43,7 +45,7 @@ pub fn application(
     memory: &'static mut Memory,
 ) -> Result<Application<'static, ViewerBoard, ClockWait<SystemTimer>>, StartError> {
     let Drivers { console, link, display, clock } = drivers;
-    let board = ViewerBoard { console, link, clock, next_frame: 0, unexpected: 0 };
+    let board = ViewerBoard { console, link, clock, merge: Merge::default(), next_frame: 0, unexpected: 0 };
     software_fpga::application(board, display, clock, model_memory, memory)
 }
 
@@ -63,16 +65,8 @@ impl Board for ViewerBoard {
     }
 
     fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
-        let mut unreadable = 0;
-        while let Some(event) = with_usb(Service::next_event).flatten() {
-            if let Some(report) = event.report() {
-                unreadable += u32::from(intake.accept(report).is_err());
-            }
-            let _ = tell(&event, &mut self.console);
-        }
-        if let Some(fault) = with_usb(Service::take_fault).flatten() {
-            let _ = writeln!(self.console, "usb: {fault}");
-        }
+        let next = || with_usb(Service::next_news).flatten();
+        let Taken { unreadable, .. } = take_in(next, &mut self.merge, intake, &mut self.console);
         let unexpected = unexpected_interrupts();
         if unexpected != self.unexpected {
             self.unexpected = unexpected;

@@ -3,6 +3,7 @@
 //! | file | what it holds |
 //! | --- | --- |
 //! | `service` | driver and bus as the interrupt handler and the main loop see them |
+//! | `take_in` | what a frame takes in: news told, reports merged and accepted |
 //! | `dwc2` | what the driver asks of a board: registers, DMA memory, a clock |
 //! | `forever` | room for a value that stays |
 //! | `words` | what the bus tells, for a person |
@@ -14,12 +15,13 @@
 mod dwc2;
 mod forever;
 mod service;
+mod take_in;
 mod words;
 
 pub use dwc2::{Dwc2Core, Now};
 pub use forever::Forever;
-pub use service::{Room, Service};
-pub use words::tell;
+pub use service::{Config, News, Room, Service};
+pub use take_in::{Taken, take_in};
 
 /// How often [`Service::tick`] is to be called, in microseconds.
 pub const TICK_MICROSECONDS: u64 = 1_000;

@@ -2,9 +2,9 @@
 
 use core::pin::Pin;
 
-use dwc2_host::{Config, Dwc2, Fault};
+use dwc2_host::{Dwc2, SpeedLimit};
 use static_cell::StaticCell;
-use usb_input::{Event, Memory, UsbInput};
+use usb_input::{Event, Fallback, Memory, UsbInput};
 
 use super::dwc2::{Dwc2Core, Now};
 use super::forever::Forever;
@@ -42,10 +42,34 @@ impl<T: Now> usb_input::Clock for BusClock<T> {
     }
 }
 
+/// What a board chooses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Config {
+    /// Of the controller.
+    pub controller: dwc2_host::Config,
+    /// Of the devices.
+    pub devices: usb_input::Config,
+}
+
+/// What has happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum News {
+    /// To a device.
+    Device(Event),
+    /// The controller failed. It mends that by itself.
+    Controller(dwc2_host::Fault),
+    /// Nothing worked at high speed: the bus goes on at full speed.
+    FullSpeed,
+}
+
 /// Driver and bus. The first tick starts the core.
 pub struct Service {
     driver: &'static Dwc2<'static>,
     input: UsbInput<'static>,
+    /// While the port may run at high speed.
+    fallback: Option<Fallback>,
+    /// It was fallen back, and nobody has been told.
+    fell_back: bool,
 }
 
 // SAFETY: what it refers to in the room is referred to by nothing else, so that it moves as a whole.
@@ -59,10 +83,12 @@ impl Service {
         config: Config,
         clock: T,
     ) -> Option<Self> {
-        let driver: &'static Dwc2<'static> = room.driver.try_init(Dwc2::new(room.core.try_init(core)?, config))?;
-        let memory: &'static Memory = room.memory.try_init(Memory::new(usb_input::Config::default()))?;
+        let Config { controller, devices } = config;
+        let driver: &'static Dwc2<'static> = room.driver.try_init(Dwc2::new(room.core.try_init(core)?, controller))?;
+        let memory: &'static Memory = room.memory.try_init(Memory::new(devices))?;
         let future = room.future.put(usb_input::run(driver.controller(), BusClock(clock), memory))?;
-        Some(Self { driver, input: UsbInput::new(Pin::static_mut(future), memory) })
+        let fallback = (controller.speed_limit == SpeedLimit::High).then(Fallback::default);
+        Some(Self { driver, input: UsbInput::new(Pin::static_mut(future), memory), fallback, fell_back: false })
     }
 
     /// Does what is due by the clock, a step of each device. For the timer's interrupt.
@@ -76,14 +102,21 @@ impl Service {
         self.driver.on_interrupt();
     }
 
-    /// Takes the oldest event.
-    pub fn next_event(&mut self) -> Option<Event> {
-        self.input.next_event()
-    }
-
-    /// Takes the controller's last fault, if there was one since the last call.
-    pub fn take_fault(&mut self) -> Option<Fault> {
-        self.driver.take_fault()
+    /// Takes the oldest of what has happened.
+    pub fn next_news(&mut self) -> Option<News> {
+        if core::mem::take(&mut self.fell_back) {
+            return Some(News::FullSpeed);
+        }
+        if let Some(fault) = self.driver.take_fault() {
+            return Some(News::Controller(fault));
+        }
+        let event = self.input.next_event()?;
+        if self.fallback.as_mut().is_some_and(|fallback| fallback.is_due(&event)) {
+            self.fallback = None;
+            self.fell_back = true;
+            self.driver.limit_speed(SpeedLimit::Full);
+        }
+        Some(News::Device(event))
     }
 
     /// Tells whether the pose is frozen, for a touch of the pad's motor.

@@ -4,11 +4,23 @@ use core::fmt::{self, Write};
 
 use usb_input::Event;
 
-/// Writes a line about an event; nothing about a report.
+use super::service::News;
+
+/// Writes a line about what happened; nothing about a report.
 ///
 /// # Errors
 /// The console's.
-pub fn tell(event: &Event, console: &mut impl Write) -> fmt::Result {
+pub fn tell(news: &News, console: &mut impl Write) -> fmt::Result {
+    let event = match news {
+        News::Device(event) => event,
+        News::Controller(fault) => return writeln!(console, "usb: {fault}"),
+        News::FullSpeed => {
+            return writeln!(
+                console,
+                "usb: nothing has worked at high speed: the bus goes on at full speed (`go … usb full` begins so)"
+            );
+        }
+    };
     match event {
         Event::Attached { device, kind, identity } => writeln!(console, "usb {device}: {kind} ({identity})"),
         Event::Unsupported { device, identity } => {

@@ -34,6 +34,7 @@ pub struct Hub {
     status_toggle: Toggle,
     ports: Vec<Port>,
     engine: Engine,
+    translator_broken: bool,
     low_next: bool,
     /// The port that answered the last IN.
     answered: Option<usize>,
@@ -61,6 +62,7 @@ impl Hub {
             status_toggle: Toggle::Data0,
             ports: (0..ports).map(|_| Port::default()).collect(),
             engine: Engine::default(),
+            translator_broken: false,
             low_next: false,
             answered: None,
             complaints: Vec::new(),
@@ -75,6 +77,16 @@ impl Hub {
     /// Unplugs what is in a port.
     pub fn unplug(&mut self, port: usize) -> Option<Box<dyn Device + Send>> {
         self.ports[port - 1].unplug()
+    }
+
+    /// From now on its transaction translator answers nothing.
+    pub fn break_translator(&mut self) {
+        self.translator_broken = true;
+    }
+
+    /// The speed that it came up at.
+    pub fn link_speed(&self) -> Speed {
+        self.speed
     }
 
     /// Its address; 0 before it was given one.
@@ -149,6 +161,10 @@ impl Hub {
         if port.enabled_speed().is_some() && now < port.reset_end + RECOVERY_US {
             self.complaints.push((Rule::ResetRecovery, format!("hub port {}", token.port)));
         }
+    }
+
+    fn translates(&self, token: &Token) -> bool {
+        token.hub == self.address && self.configured && !self.translator_broken
     }
 
     /// The translator that a split is for: this hub's, or one behind it.
@@ -276,7 +292,7 @@ impl Device for Hub {
 impl Translator for Hub {
     fn start_split(&mut self, now: u64, token: Token, start: Start) -> Started {
         self.tick(now);
-        if token.hub == self.address && self.configured {
+        if self.translates(&token) {
             self.check_split(now, &token);
             return self.engine.start(now, token, start);
         }
@@ -285,7 +301,7 @@ impl Translator for Hub {
 
     fn complete_split(&mut self, now: u64, token: Token) -> Completed {
         self.tick(now);
-        if token.hub == self.address && self.configured {
+        if self.translates(&token) {
             return self.engine.complete(now, token);
         }
         self.forward(Completed::Silent, |hub| hub.complete_split(now, token))

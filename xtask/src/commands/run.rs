@@ -1,6 +1,7 @@
 //! `cargo xtask run`: the firmware live, in a window or headless.
 
 use std::fs;
+use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -137,8 +138,13 @@ fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
     }
     let mut devices = vec![UsbDevice::hub("1"), UsbDevice::keyboard("1.1")];
     if let Some(socket) = &arguments.pad {
-        if !socket.exists() {
-            println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display());
+        match fs::metadata(socket) {
+            Ok(found) => ensure!(
+                found.file_type().is_socket(),
+                "--pad {} is no socket: name one that `cargo xtask pad` listens at, or a file that is not there yet",
+                socket.display()
+            ),
+            Err(_) => println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display()),
         }
         devices.push(UsbDevice::served(socket, "1.2"));
     }
@@ -212,6 +218,12 @@ mod tests {
         assert_eq!(plugged("--board raspi2b --pad /no/socket --usb-host 054c:0268"), Ok(4));
         let message = plugged("--usb-host 054c:0268").expect_err("vexpress-a9 has none");
         assert!(message.starts_with("vexpress-a9 has no USB: use `--board raspi2b`"), "{message}");
+    }
+
+    #[test]
+    fn a_pads_socket_is_a_socket() {
+        let message = plugged("--board raspi2b --pad Cargo.toml").expect_err("a file");
+        assert!(message.starts_with("--pad Cargo.toml is no socket: "), "{message}");
     }
 
     #[test]
