@@ -218,10 +218,8 @@ impl State<'_> {
             slot.last_start = Some(frame);
         }
         slot.last_frame = Some(frame);
-        slot.effort.halts_by = match self.config.halt_limit_us {
-            Some(limit) if endpoint.periodic() || endpoint.splits() => Some(now + u64::from(limit)),
-            _ => None,
-        };
+        let halts = endpoint.splits() || endpoint.periodic() && !self.config.patient_interrupts;
+        slot.effort.halts_by = halts.then(|| now + u64::from(self.config.halt_limit_us));
         if endpoint.route == Route::Preamble {
             self.preamble_frame = Some(frame);
         }

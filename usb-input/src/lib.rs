@@ -75,4 +75,5 @@ pub use place::Place;
 pub use run::run;
 pub use slots::DEVICES_MAXIMUM;
 pub use text::Text;
+pub use timing::SETTLED_WITHIN_US;
 pub use usb_input::UsbInput;

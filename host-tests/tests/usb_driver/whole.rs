@@ -7,11 +7,12 @@
 //! | `swaps` | one device in another's place, at any moment |
 //! | `beside` | a good device that starts beside one that fails |
 //! | `speed` | the root port held at full speed while everything runs |
-//! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
+//! | `batch`, `reach`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
 mod beside;
 mod cost;
+mod reach;
 mod rogues;
 mod speed;
 mod swaps;

@@ -144,7 +144,9 @@ fn plugged_in(arguments: &RunArguments) -> anyhow::Result<Vec<UsbDevice>> {
                 "--pad {} is no socket: name one that `cargo xtask pad` listens at, or a file that is not there yet",
                 socket.display()
             ),
-            Err(_) => println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display()),
+            Err(_) => {
+                println!("nobody is at {} yet: start `cargo xtask pad {0}` in another terminal", socket.display())
+            }
         }
         devices.push(UsbDevice::served(socket, "1.2"));
     }
