@@ -88,7 +88,11 @@ impl State<'_> {
     /// interrupt if somebody waits for that.
     pub(crate) fn launch(&mut self, now: u64) {
         if self.phase != Phase::Ready {
-            return self.watch_frames(false);
+            // A core that is being started has its interrupts masked, and is to be left alone.
+            if self.phase.started() {
+                self.watch_frames(false);
+            }
+            return;
         }
         // All steps of one visit go by one look at the (micro)frame. If the next one begins before the step is handed
         // over, the core sends it in that one, at once: what goes out in the present (micro)frame, and what waits for

@@ -1,7 +1,8 @@
 //! One device in another's place, at any moment.
 
 use dwc2_host::{Config, SpeedLimit};
-use usb_input::{Event, Kind};
+use usb_input::{Event, Kind, Place};
+use usb_model::dualshock3::{Temper, dualshock3};
 use usb_model::hub::Hub;
 use usb_model::keyboard::{Form, keyboard};
 use usb_model::shared::Shared;
@@ -58,5 +59,23 @@ fn whoever_goes_while_it_starts_breaks_no_rule() {
             whole.run(300_000);
             whole.events.clear();
         }
+    }
+}
+
+/// At any moment of a frame: the core is reset whatever it is at, and whatever interrupts it was to raise.
+#[test]
+fn the_hub_itself_may_be_pulled_out() {
+    let mut whole = Whole::new(Config::new());
+    let hub = Shared::new(Hub::new(Speed::High));
+    hub.lock().plug(1, Box::new(dualshock3(Temper::Sony)));
+    for moment in (0..2_000).step_by(70) {
+        whole.rig.plug(hub.clone());
+        assert!(whole.run_until(1_500_000, |whole| whole.is_attached(port(1), Kind::DualShock3)));
+        let now = whole.now();
+        whole.rig.pass_until(now + moment);
+        whole.rig.unplug();
+        whole.run(10_000);
+        assert!(whole.is_detached(port(1)) && whole.is_detached(Place::ROOT), "after {moment} us: {:?}", whole.events);
+        whole.events.clear();
     }
 }
