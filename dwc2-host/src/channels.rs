@@ -77,6 +77,7 @@ impl State<'_> {
         for slot in self.slots.iter_mut().flatten() {
             if let Activity::Waiting { from } = &mut slot.activity
                 && slot.endpoint.periodic()
+                && slot.endpoint.splits()
                 && *from <= now + slot.endpoint.lead_us()
             {
                 *from = (*from).min(now);
