@@ -47,6 +47,7 @@ pub(crate) async fn root_port<'d, C: UsbHostController<'d>>(root: &Root, mut con
 /// Carries out the transfers that are wanted, one after the other.
 #[expect(clippy::await_holding_refcell_ref, reason = "nobody else takes the data while a transfer is under way")]
 async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, mailbox: &Mailbox) -> Infallible {
+    let mut tries = 0;
     loop {
         let request = mailbox.next_request().await;
         let answer = {
@@ -56,7 +57,18 @@ async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, 
                 Either::Second(()) => Err(TransferError::Pipe(PipeError::Timeout)),
             }
         };
-        mailbox.put_answer(answer.map(|count| count.min(request.length.into())));
+        tries += 1;
+        match answer {
+            Err(TransferError::Pipe(PipeError::BadResponse | PipeError::DataToggleError | PipeError::Canceled))
+                if request.setup.is_some() && tries < TRIES =>
+            {
+                mailbox.request(request);
+            }
+            answer => {
+                tries = 0;
+                mailbox.put_answer(answer.map(|count| count.min(request.length.into())));
+            }
+        }
     }
 }
 
@@ -76,24 +88,15 @@ async fn transfer<'d, A: UsbHostAllocator<'d>>(
     timeout.no_data_timeout = STAGE_TIMEOUT;
     pipe.set_timeout(timeout);
     let packet = setup.bytes(request.length);
-    let mut tries = 1;
-    loop {
-        mailbox.until_clear(request.way).await;
-        let outcome = if setup.reads() {
-            pipe.control_in(&packet, data).await
-        } else {
-            pipe.control_out(&packet, data).await.map(|()| data.len())
-        };
-        if matches!(outcome, Err(error) if error != PipeError::Stall) {
-            mailbox.set_muddle(request.way);
-        }
-        match outcome {
-            Err(PipeError::BadResponse | PipeError::DataToggleError | PipeError::Canceled) if tries < TRIES => {
-                tries += 1;
-            }
-            outcome => return outcome.map_err(TransferError::Pipe),
-        }
+    let outcome = if setup.reads() {
+        pipe.control_in(&packet, data).await
+    } else {
+        pipe.control_out(&packet, data).await.map(|()| data.len())
+    };
+    if matches!(outcome, Err(error) if error != PipeError::Stall) {
+        mailbox.set_muddle(request.way);
     }
+    outcome.map_err(TransferError::Pipe)
 }
 
 /// Brings the packets of the endpoint that is listened to.

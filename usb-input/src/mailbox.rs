@@ -179,8 +179,18 @@ impl Mailbox {
         poll_fn(|_| if self.open.get() == open { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 
+    /// Waits for a request, and until no transfer before has left anything behind in the translator on its way.
     pub(crate) async fn next_request(&self) -> Request {
-        poll_fn(|_| self.request.take().map_or(Poll::Pending, Poll::Ready)).await
+        poll_fn(|_| self.take_request().map_or(Poll::Pending, Poll::Ready)).await
+    }
+
+    #[inline(never)]
+    fn take_request(&self) -> Option<Request> {
+        let split = self.request.get()?.way.split;
+        if split.is_some_and(|split| self.muddle_of(split.hub_addr()).is_some()) {
+            return None;
+        }
+        self.request.take()
     }
 
     /// The bytes that go out, or come in.
@@ -192,12 +202,6 @@ impl Mailbox {
     pub(crate) fn set_muddle(&self, way: Way) {
         self.muddle.set(way.split.is_some().then_some(way));
         self.stir();
-    }
-
-    /// Waits until no transfer before has left anything behind in the translator of this way.
-    pub(crate) async fn until_clear(&self, way: Way) {
-        let clear = || way.split.is_none_or(|split| self.muddle_of(split.hub_addr()).is_none());
-        poll_fn(|_| if clear() { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 
     pub(crate) fn put_answer(&self, answer: Outcome) {
