@@ -9,7 +9,6 @@ use crate::slot::{Activity, Fate, Slot, Split};
 use crate::state::State;
 use crate::timing::{HALT_LIMIT_US, SPLIT_DRAIN_US};
 use crate::transfer::{Program, Stage};
-use crate::tt_clear::TtClear;
 use crate::{Fault, PIPES, TransferError};
 
 /// The last microframe of a frame in which a periodic start split goes out: its complete splits end in the same frame,
@@ -30,21 +29,16 @@ enum Turn {
     Later,
     /// No, but maybe in the next (micro)frame.
     NextFrame,
-    /// Yes: what comes first, and the (micro)frame that it goes out in.
-    Now(Rank, u16),
+    /// Yes: its rank, and the (micro)frame that it goes out in.
+    Now(u32, u16),
 }
 
-/// What comes first when several steps are due.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Rank {
-    /// Complete splits, those whose start split is oldest first, by the microframes that they have left: they keep the
-    /// order of their start splits (USB 2.0 §11.18.8, as Linux reads it).
-    Complete(u16),
-    /// Interrupt endpoints, those with the shortest interval first: they can wait least for the next frame.
-    Periodic(u32),
-    /// Control and bulk.
-    Rest,
-}
+/// Ranks: of several steps that are due, the lowest comes first.
+///
+/// Complete splits have theirs by the microframes that they have left, so that they keep the order of their start splits
+/// (USB 2.0 §11.18.8, as Linux reads it); interrupt endpoints by their interval, which is more: those with a short one
+/// can wait least for the next frame; control and bulk this.
+const LAST_RANK: u32 = u32::MAX;
 
 impl State<'_> {
     /// A channel's HCINT holds something.
@@ -83,6 +77,7 @@ impl State<'_> {
         for slot in self.slots.iter_mut().flatten() {
             if let Activity::Waiting { from } = &mut slot.activity
                 && slot.endpoint.periodic()
+                && slot.endpoint.splits()
                 && *from <= now + slot.endpoint.lead_us()
             {
                 *from = (*from).min(now);
@@ -94,14 +89,18 @@ impl State<'_> {
     /// interrupt if somebody waits for that.
     pub(crate) fn launch(&mut self, now: u64) {
         if self.phase != Phase::Ready {
-            return self.watch_frames(false);
+            // A core that is being started has its interrupts masked, and is to be left alone.
+            if self.phase.started() {
+                self.watch_frames(false);
+            }
+            return;
         }
         // All steps of one visit go by one look at the (micro)frame. If the next one begins before the step is handed
         // over, the core sends it in that one, at once: what goes out in the present (micro)frame, and what waits for
         // the next, is all that HCCHAR.ODDFRM says (Linux, `hcd.c`, dwc2_hc_set_even_odd_frame).
         let mut frame = None;
         loop {
-            let mut first: Option<(Rank, u16, usize)> = None;
+            let mut first: Option<(u32, u16, usize)> = None;
             let mut watch = false;
             for index in 0..PIPES {
                 match self.turn_of(index, &mut frame, now) {
@@ -127,7 +126,7 @@ impl State<'_> {
             return Turn::Later;
         }
         if !endpoint.periodic() && !endpoint.paced() {
-            return Turn::Now(Rank::Rest, 0);
+            return Turn::Now(LAST_RANK, 0);
         }
         let frame = match *seen {
             Some(frame) => frame,
@@ -136,14 +135,14 @@ impl State<'_> {
         if !endpoint.periodic() {
             let taken = slot.last_frame == Some(frame)
                 || endpoint.route == Route::Preamble && self.preamble_frame == Some(frame);
-            return if taken { Turn::NextFrame } else { Turn::Now(Rank::Rest, frame) };
+            return if taken { Turn::NextFrame } else { Turn::Now(LAST_RANK, frame) };
         }
         let next = (frame + 1) % FRAME_NUMBERS;
         match (endpoint.route, split) {
             (Route::Split { hub, .. }, Split::Complete { start }) => match frames_since(next, start) {
                 0..FIRST_COMPLETE_SPLIT => Turn::NextFrame,
                 age @ FIRST_COMPLETE_SPLIT..=LAST_COMPLETE_SPLIT if !self.runs_older_split(hub, start) => {
-                    Turn::Now(Rank::Complete(LAST_COMPLETE_SPLIT - age), next)
+                    Turn::Now((LAST_COMPLETE_SPLIT - age).into(), next)
                 }
                 FIRST_COMPLETE_SPLIT..=LAST_COMPLETE_SPLIT => Turn::Later,
                 _ => {
@@ -161,11 +160,11 @@ impl State<'_> {
                 } else if self.slots.iter().flatten().any(taken) {
                     Turn::NextFrame
                 } else {
-                    Turn::Now(Rank::Periodic(endpoint.interval_us), next)
+                    Turn::Now(endpoint.interval_us, next)
                 }
             }
             (Route::Preamble, _) if self.preamble_frame == Some(next) => Turn::NextFrame,
-            _ => Turn::Now(Rank::Periodic(endpoint.interval_us), next),
+            _ => Turn::Now(endpoint.interval_us, next),
         }
     }
 
@@ -224,10 +223,8 @@ impl State<'_> {
             slot.last_start = Some(frame);
         }
         slot.last_frame = Some(frame);
-        slot.effort.halts_by = match self.config.halt_limit_us {
-            Some(limit) if endpoint.periodic() || endpoint.splits() => Some(now + u64::from(limit)),
-            _ => None,
-        };
+        let halts = endpoint.splits() || endpoint.periodic() && !self.config.patient_interrupts;
+        slot.effort.halts_by = halts.then(|| now + u64::from(self.config.halt_limit_us));
         if endpoint.route == Route::Preamble {
             self.preamble_frame = Some(frame);
         }
@@ -330,8 +327,8 @@ impl State<'_> {
                     self.halt(index, now);
                 }
                 Activity::Waiting { .. } if effort.fate != Fate::Wanted && now >= effort.drained_by => {
-                    self.tt_clears.push(TtClear::of(&slot.endpoint, &effort.transfer));
-                    self.end(index, effort.fate.result());
+                    let fate = effort.fate;
+                    self.end(index, fate.result());
                 }
                 Activity::Running { .. } | Activity::Waiting { .. } if passed(effort.deadline) => {
                     self.abandon(index, Fate::Failed(TransferError::Timeout), now);

@@ -23,15 +23,19 @@ pub struct Config {
     /// The ULPI PHY drives an external supply of VBUS (GUSBCFG bit 20); without effect on other PHYs.
     pub external_vbus: bool,
     /// Microseconds after which an interrupt or split channel that has not halted by itself is a
-    /// [`ChannelStuck`](crate::Fault::ChannelStuck); `None` waits for ever. The core halts it within two frames; QEMU's model
-    /// keeps one running until its device has something to say, where that device is one of the PC's.
-    pub halt_limit_us: Option<u32>,
+    /// [`ChannelStuck`](crate::Fault::ChannelStuck). The core halts it within two frames.
+    pub halt_limit_us: u32,
+    /// That limit is not for interrupt endpoints without splits: such a channel runs until its device answers. QEMU's
+    /// model does that to a device of the PC's that has nothing to say, and to one that has gone. The wait ends with the
+    /// request: one that is dropped has its channel halted 20 ms later, and a channel that does not halt in another
+    /// 10 ms is stuck.
+    pub patient_interrupts: bool,
 }
 
 impl Config {
     /// High speed, VBUS from an external supply: what the DE1-SoC has.
     pub const fn new() -> Self {
-        Self { speed_limit: SpeedLimit::High, external_vbus: true, halt_limit_us: Some(50_000) }
+        Self { speed_limit: SpeedLimit::High, external_vbus: true, halt_limit_us: 50_000, patient_interrupts: false }
     }
 
     /// The same with another speed limit.
@@ -50,8 +54,15 @@ impl Config {
 
     /// The same with another limit for channels that halt by themselves.
     #[must_use]
-    pub const fn with_halt_limit_us(mut self, limit: Option<u32>) -> Self {
+    pub const fn with_halt_limit_us(mut self, limit: u32) -> Self {
         self.halt_limit_us = limit;
+        self
+    }
+
+    /// The same with channels of interrupt endpoints that run until the device answers, or without.
+    #[must_use]
+    pub const fn with_patient_interrupts(mut self, patient: bool) -> Self {
+        self.patient_interrupts = patient;
         self
     }
 }

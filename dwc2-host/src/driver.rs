@@ -11,7 +11,7 @@ use embassy_usb_driver::{EndpointInfo, EndpointType};
 use crate::hardware::Core;
 use crate::port::Phase;
 use crate::state::State;
-use crate::{Board, Config, Fault, Pipe, SpeedLimit, TtClear};
+use crate::{Board, Config, Fault, Pipe, SpeedLimit};
 
 /// One DWC2 core and all that the driver knows of it.
 ///
@@ -50,12 +50,6 @@ impl<'d> Dwc2<'d> {
     /// Takes the last fault, if there was one since the last call. The driver mends it by itself.
     pub fn take_fault(&self) -> Option<Fault> {
         self.with(|state| state.fault.take())
-    }
-
-    /// Takes a request that this hub's driver should send on its control pipe; ask again after a transfer through the
-    /// hub's transaction translator failed.
-    pub fn take_tt_clear(&self, hub: u8) -> Option<TtClear> {
-        self.with(|state| state.tt_clears.take(hub))
     }
 
     /// Limits the root port's speed from now on. A change ends all transfers, turns the port off and starts the core

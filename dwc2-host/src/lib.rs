@@ -7,13 +7,18 @@
 //! It does control, bulk and interrupt transfers, one packet of interrupt data a request, with low-, full- and
 //! high-speed devices, directly or through hubs: by split transactions behind a high-speed hub with one transaction
 //! translator, by preambles behind a full-speed one. It does not do isochronous transfers, high-bandwidth endpoints,
-//! suspend and resume, or the device's role.
+//! suspend and resume, or the device's role. Nor does it talk to hubs: a control or bulk transfer by splits that fails,
+//! but for STALL, may leave its translator's buffer taken, and the stack sends the hub CLEAR_TT_BUFFER before the
+//! endpoint's next transfer (USB 2.0 §11.24.2.3).
 //!
 //! # How it runs
 //!
-//! [`Dwc2::on_interrupt`] and [`Dwc2::poll`] do the same: take what the core reports, go on with every
-//! transfer and with the root port, and wake whoever waits. Neither ever waits. Call `poll` at 1 kHz (time-outs and
-//! the port's delays live on it), and `on_interrupt` from the core's interrupt.
+//! [`Dwc2::on_interrupt`] and [`Dwc2::poll`] take what the core reports, go on with every transfer and with the root
+//! port, and wake whoever waits. Neither ever waits. Call `poll` at 1 kHz (time-outs, the port's delays and the turns
+//! of slow endpoints live on it), and `on_interrupt` from the core's interrupt. The start of a frame interrupts only while
+//! somebody waits for one: least often where `poll` comes in the first microframes of a frame, which start splits go
+//! out in.
+//!
 //! Without the interrupt everything works but interrupt endpoints behind a transaction translator: their complete splits are
 //! due within microframes. A board without it takes [`SpeedLimit::Full`].
 //!
@@ -37,7 +42,6 @@ mod start;
 mod state;
 mod timing;
 mod transfer;
-mod tt_clear;
 mod word;
 
 pub use crate::board::{Board, Clock, DmaMemory, LINE_BYTES, Registers};
@@ -45,7 +49,6 @@ pub use crate::config::{Config, SpeedLimit};
 pub use crate::driver::{Allocator, Controller, Dwc2};
 pub use crate::error::{Fault, TransferError};
 pub use crate::pipe::Pipe;
-pub use crate::tt_clear::TtClear;
 
 /// Pipes that can be allocated at once.
 pub const PIPES: usize = 16;

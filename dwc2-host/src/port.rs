@@ -7,6 +7,7 @@ use crate::slot::{Activity, Fate};
 use crate::state::State;
 use crate::timing::{
     DEBOUNCE_US, ENABLE_LIMIT_US, FAULT_PAUSE_US, HALT_LIMIT_US, RESET_RECOVERY_US, ROOT_RESET_US, SPLIT_DRAIN_US,
+    VISIT_US,
 };
 use crate::{Fault, PIPES, SpeedLimit, TransferError};
 
@@ -139,7 +140,7 @@ impl State<'_> {
     /// Goes to a phase that is over, or fails, at `end`.
     pub(crate) fn enter(&mut self, phase: Phase, end: u64) {
         self.phase = phase;
-        self.phase_end = end;
+        self.phase_end = end + VISIT_US;
     }
 
     fn debounce(&mut self, port: Hprt, now: u64, over: bool) {

@@ -9,7 +9,6 @@ use crate::hardware::Core;
 use crate::port::Phase;
 use crate::registers::{Gintmsk, Gintsts, Haint};
 use crate::slot::{Activity, Fate, Slot};
-use crate::tt_clear::{TtClear, TtClears};
 use crate::{Config, Fault, PIPES, TransferError};
 
 /// Channels that a core has at most.
@@ -101,7 +100,6 @@ pub(crate) struct State<'d> {
     pub(crate) channel_count: usize,
     /// Frame of the last preamble.
     pub(crate) preamble_frame: Option<u16>,
-    pub(crate) tt_clears: TtClears,
     /// GINTMSK lets start-of-frame interrupts through.
     frame_interrupts: bool,
     /// Somebody who waits may go on.
@@ -124,7 +122,6 @@ impl<'d> State<'d> {
             channels: [None; CHANNELS],
             channel_count: 0,
             preamble_frame: None,
-            tt_clears: TtClears::default(),
             frame_interrupts: false,
             stirred: false,
         }
@@ -201,7 +198,6 @@ impl<'d> State<'d> {
     /// Ends what every pipe is at; none of them is good for anything any more.
     pub(crate) fn drop_all(&mut self) {
         self.channels = [None; CHANNELS];
-        self.tt_clears = TtClears::default();
         for index in 0..PIPES {
             if let Some(slot) = &mut self.slots[index] {
                 slot.stale = true;
@@ -222,10 +218,6 @@ impl<'d> State<'d> {
             (Fate::Cancelled, Err(_)) => Activity::Idle,
             _ => Activity::Done(result),
         };
-        let confused = matches!(result, Err(TransferError::NoAnswer | TransferError::Babble));
-        if confused && slot.endpoint.splits() && !slot.stale {
-            self.tt_clears.push(TtClear::of(&slot.endpoint, &slot.effort.transfer));
-        }
         if slot.orphan {
             self.slots[index] = None;
         }

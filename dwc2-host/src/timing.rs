@@ -1,5 +1,8 @@
 //! Every wait, with the paragraph that asks for it. Microseconds.
 
+/// What may pass in one visit between its look at the clock and its last access: every wait of the port's is longer by
+/// that. Ours.
+pub(crate) const VISIT_US: u64 = 500;
 /// A connection must last this long before the reset: TATTDB, USB 2.0 §7.1.7.3.
 pub(crate) const DEBOUNCE_US: u64 = 100_000;
 /// Reset on a root port: TDRSTR, USB 2.0 §7.1.7.5.

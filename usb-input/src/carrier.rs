@@ -47,20 +47,37 @@ pub(crate) async fn root_port<'d, C: UsbHostController<'d>>(root: &Root, mut con
 /// Carries out the transfers that are wanted, one after the other.
 #[expect(clippy::await_holding_refcell_ref, reason = "nobody else takes the data while a transfer is under way")]
 async fn transfers<'d, A: UsbHostAllocator<'d>>(memory: &Memory, allocator: &A, mailbox: &Mailbox) -> Infallible {
+    let mut tries = 0;
     loop {
         let request = mailbox.next_request().await;
         let answer = {
             let mut data = mailbox.data_mut(request.length.into());
-            match select(transfer(allocator, &request, &mut data), memory.sleep(request.limit())).await {
+            match select(transfer(allocator, mailbox, &request, &mut data), memory.sleep(request.limit())).await {
                 Either::First(outcome) => outcome,
                 Either::Second(()) => Err(TransferError::Pipe(PipeError::Timeout)),
             }
         };
-        mailbox.put_answer(answer.map(|count| count.min(request.length.into())));
+        tries += 1;
+        match answer {
+            Err(TransferError::Pipe(PipeError::BadResponse | PipeError::DataToggleError | PipeError::Canceled))
+                if request.setup.is_some() && tries < TRIES =>
+            {
+                mailbox.request(request);
+            }
+            answer => {
+                tries = 0;
+                mailbox.put_answer(answer.map(|count| count.min(request.length.into())));
+            }
+        }
     }
 }
 
-async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request, data: &mut [u8]) -> Outcome {
+async fn transfer<'d, A: UsbHostAllocator<'d>>(
+    allocator: &A,
+    mailbox: &Mailbox,
+    request: &Request,
+    data: &mut [u8],
+) -> Outcome {
     let Some(setup) = request.setup else {
         let mut pipe = take_pipe::<A, pipe::Interrupt, pipe::Out>(allocator, &request.way).await?;
         return pipe.request_out(data, false).await.map(|()| data.len()).map_err(TransferError::Pipe);
@@ -71,20 +88,15 @@ async fn transfer<'d, A: UsbHostAllocator<'d>>(allocator: &A, request: &Request,
     timeout.no_data_timeout = STAGE_TIMEOUT;
     pipe.set_timeout(timeout);
     let packet = setup.bytes(request.length);
-    let mut tries = 1;
-    loop {
-        let outcome = if setup.reads() {
-            pipe.control_in(&packet, data).await
-        } else {
-            pipe.control_out(&packet, data).await.map(|()| data.len())
-        };
-        match outcome {
-            Err(PipeError::BadResponse | PipeError::DataToggleError | PipeError::Canceled) if tries < TRIES => {
-                tries += 1;
-            }
-            outcome => return outcome.map_err(TransferError::Pipe),
-        }
+    let outcome = if setup.reads() {
+        pipe.control_in(&packet, data).await
+    } else {
+        pipe.control_out(&packet, data).await.map(|()| data.len())
+    };
+    if matches!(outcome, Err(error) if error != PipeError::Stall) {
+        mailbox.set_muddle(request.way);
     }
+    outcome.map_err(TransferError::Pipe)
 }
 
 /// Brings the packets of the endpoint that is listened to.

@@ -8,6 +8,7 @@ use crate::ear::Ear;
 use crate::link::{Link, Next};
 use crate::mailbox::Outcome;
 use crate::setup::{Setup, descriptor};
+use crate::slots::SlotIndex;
 use crate::timing::Wait;
 use crate::{Fault, Kind, Memory, Step};
 use port::{Port, Task};
@@ -45,6 +46,11 @@ enum Stage {
     /// Its changes are taken note of.
     HubClear {
         changes: u16,
+    },
+    /// The translator is told to forget what it holds for a device.
+    ClearBuffer {
+        of: SlotIndex,
+        address: u8,
     },
     /// A port, by its index, is dealt with.
     Port {
@@ -131,6 +137,9 @@ impl HubTalk {
                 let change = changes.trailing_zeros() as u8;
                 return Ok(link.order(memory, Step::Port, Setup::clear_hub_feature(change, 0)));
             }
+            Stage::ClearBuffer { address, .. } => {
+                return Ok(link.order(memory, Step::Port, Setup::clear_tt_buffer(address)));
+            }
             Stage::Port { index, task } => {
                 let next = self.ports[usize::from(index)].next(link, memory, task);
                 if let Some((next, task)) = next {
@@ -149,6 +158,12 @@ impl HubTalk {
             self.changes &= !1;
             self.stage = Stage::HubStatus;
             return;
+        }
+        for of in SlotIndex::ALL {
+            if let Some(way) = memory.mailbox(of).muddle_of(link.address) {
+                self.stage = Stage::ClearBuffer { of, address: way.address };
+                return;
+            }
         }
         let served = self.served();
         for (index, port) in (0..served).zip(&mut self.ports) {
@@ -170,6 +185,12 @@ impl HubTalk {
         if self.ear.answered(link, memory, answer)? {
             return Ok(());
         }
+        if let Stage::ClearBuffer { of, .. } = self.stage {
+            // A hub at full speed has no translator, and refuses.
+            memory.mailbox(of).set_clear();
+            self.stage = Stage::Rest;
+            return Ok(());
+        }
         let count = link.succeeded(answer)?;
         match self.stage {
             Stage::Power { port } => self.stage = Stage::Power { port: port + 1 },
@@ -187,7 +208,7 @@ impl HubTalk {
                 let task = self.ports[usize::from(index)].answered(link, memory, task, &data)?;
                 self.stage = task.map_or(Stage::Rest, |task| Stage::Port { index, task });
             }
-            Stage::Begin | Stage::PowerGood | Stage::Rest => {}
+            Stage::Begin | Stage::PowerGood | Stage::ClearBuffer { .. } | Stage::Rest => {}
         }
         Ok(())
     }

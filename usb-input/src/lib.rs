@@ -24,6 +24,18 @@
 //! }
 //! # }
 //! ```
+//! # Why not embassy-usb-host
+//!
+//! The seam is `embassy-usb-driver`'s host traits, so that its stack runs on the same driver, and this one on others'.
+//! `embassy-usb-host` 0.1.0 does not do here. `class/hub.rs` takes only hubs whose interface says protocol 0; one that
+//! could have a translator for each port says 1 (USB 2.0 §11.23.1), as the DE1-SoC's USB2512B may. It takes a device's
+//! speed from before the port's reset, when one of high speed looks like one of full speed (§7.1.7.5); waits for no
+//! connection to settle; resets the port before it takes the lock that guards address 0; and leaves a device that failed
+//! enabled there. A port that was cut off or drew too much current ends its `wait_for_event` with an error, and the other
+//! changes are lost. `lib.rs` keeps the address of a device that fails at SET_ADDRESS or later, in most places. A
+//! device's bytes can make it panic: a configuration descriptor whose bLength is more than its wTotalLength
+//! (`descriptor.rs`), a port beyond `MAX_PORTS` (`class/hub.rs`). And it takes its time from `embassy-time`'s global
+//! driver.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -75,4 +87,5 @@ pub use place::Place;
 pub use run::run;
 pub use slots::DEVICES_MAXIMUM;
 pub use text::Text;
+pub use timing::SETTLED_WITHIN_US;
 pub use usb_input::UsbInput;

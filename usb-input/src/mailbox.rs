@@ -76,6 +76,8 @@ pub(crate) struct Mailbox {
     packet: RefCell<[u8; PACKET_MAXIMUM as usize]>,
     /// The toggle of the endpoint that is listened to is DATA0 again.
     restart: Cell<bool>,
+    /// The device's translator may hold a buffer for this way that nobody will fetch. Stays when the mailbox is closed.
+    muddle: Cell<Option<Way>>,
     /// Something was put in or taken out.
     stirred: Cell<bool>,
 }
@@ -91,6 +93,7 @@ impl Mailbox {
             arrival: Cell::new(None),
             packet: RefCell::new([0; PACKET_MAXIMUM as usize]),
             restart: Cell::new(false),
+            muddle: Cell::new(None),
             stirred: Cell::new(false),
         }
     }
@@ -131,6 +134,17 @@ impl Mailbox {
         self.stir();
     }
 
+    /// The way to endpoint 0 of a device behind this hub, if its translator's buffer is to be cleared.
+    pub(crate) fn muddle_of(&self, hub: u8) -> Option<Way> {
+        self.muddle.get().filter(|way| way.split.is_some_and(|split| split.hub_addr() == hub))
+    }
+
+    /// Says that it was cleared.
+    pub(crate) fn set_clear(&self) {
+        self.muddle.set(None);
+        self.stir();
+    }
+
     pub(crate) fn take_answer(&self) -> Option<Outcome> {
         self.answer.take()
     }
@@ -165,13 +179,29 @@ impl Mailbox {
         poll_fn(|_| if self.open.get() == open { Poll::Ready(()) } else { Poll::Pending }).await;
     }
 
+    /// Waits for a request, and until no transfer before has left anything behind in the translator on its way.
     pub(crate) async fn next_request(&self) -> Request {
-        poll_fn(|_| self.request.take().map_or(Poll::Pending, Poll::Ready)).await
+        poll_fn(|_| self.take_request().map_or(Poll::Pending, Poll::Ready)).await
+    }
+
+    #[inline(never)]
+    fn take_request(&self) -> Option<Request> {
+        let split = self.request.get()?.way.split;
+        if split.is_some_and(|split| self.muddle_of(split.hub_addr()).is_some()) {
+            return None;
+        }
+        self.request.take()
     }
 
     /// The bytes that go out, or come in.
     pub(crate) fn data_mut(&self, length: usize) -> RefMut<'_, [u8]> {
         RefMut::map(self.data.borrow_mut(), |data| &mut data[..length.min(DATA_BYTES)])
+    }
+
+    /// Says that a transfer by this way went wrong.
+    pub(crate) fn set_muddle(&self, way: Way) {
+        self.muddle.set(way.split.is_some().then_some(way));
+        self.stir();
     }
 
     pub(crate) fn put_answer(&self, answer: Outcome) {

@@ -156,6 +156,10 @@ impl Slots {
         }
     }
 
+    pub(crate) fn is_leaving(&self, index: SlotIndex) -> bool {
+        matches!(self.phase(index), Phase::Leaving)
+    }
+
     pub(crate) fn has_failed(&self, index: SlotIndex) -> bool {
         matches!(self.phase(index), Phase::Failed)
     }

@@ -51,12 +51,15 @@ impl Stack {
 }
 
 /// Tells that a device is let go or has failed, as soon as there is room, and makes its slot free, or ready for
-/// another attempt.
+/// another attempt. One that has failed keeps its turn at address 0, where it may still answer, until its port has
+/// cut it off.
 fn farewell(memory: &Memory, slot: SlotIndex, end: &mut Option<Fault>, talk: &mut Option<Talk>) {
     let slots = &memory.slots;
     *talk = None;
     memory.mailbox(slot).set_open(false);
-    slots.end_turn(slot);
+    if slots.is_leaving(slot) {
+        slots.end_turn(slot);
+    }
     slots.leave_children(slot);
     if !memory.has_room() {
         return;

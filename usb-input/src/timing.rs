@@ -84,6 +84,18 @@ pub(crate) const ATTEMPTS: u8 = 3;
 /// hub takes to tell that the device was unplugged (bInterval at most 255 ms). Ours.
 pub(crate) const READ_ERRORS_MAXIMUM: u8 = 7;
 
+/// A device is served, let be or given up so many microseconds after its hub has told of it, at most, if nobody else
+/// starts at the same time: only one starts at a time, and others wait until then. Each attempt has
+/// [`READY_TIMEOUT`](Wait::READY_TIMEOUT) from the end of its reset on, and ends there.
+///
+/// A device on the root port is not given up, but tried ever more seldom; its first three attempts take no longer.
+pub const SETTLED_WITHIN_US: u64 = {
+    let attempt = Wait::RETRY_PAUSE.0 + Wait::PORT_RESET_TIMEOUT.0 + Wait::PORT_RESET_STEP.0 + Wait::READY_TIMEOUT.0;
+    // What the waits are longer by, and what their requests take.
+    let more = 20_000;
+    (Wait::PORT_DEBOUNCE.0 + ATTEMPTS as u32 * (attempt + more)) as u64
+};
+
 #[cfg(test)]
 mod tests {
     use super::{Moment, Wait};

@@ -19,6 +19,8 @@ pub enum Temper {
     RefusesReading,
     /// Woken by 0xF2 alone; refuses 0xF4.
     RefusesWriting,
+    /// Awake by itself; refuses 0xF2, 0xF4 and 0xF5.
+    RefusesBoth,
     /// Woken by a byte to its interrupt endpoint, after 0xF2 and 0xF5 were read.
     WantsByte,
     /// Shakes for ever if such a byte comes; its name tells.
@@ -99,7 +101,8 @@ impl Function for Pad {
     fn request_in(&mut self, now: u64, setup: [u8; 8]) -> Option<Vec<u8>> {
         let length = usize::from(u16::from_le_bytes([setup[6], setup[7]]));
         match (setup[0], setup[1], setup[3], setup[2]) {
-            (0xA1, 1, 3, 0xF2) if self.temper != Temper::RefusesReading => {
+            (0xA1, 1, 3, 0xF2 | 0xF5) if matches!(self.temper, Temper::RefusesReading | Temper::RefusesBoth) => None,
+            (0xA1, 1, 3, 0xF2) => {
                 self.asked[0] = true;
                 if self.temper != Temper::WantsByte {
                     self.wake(now);
@@ -108,7 +111,7 @@ impl Function for Pad {
                 answer[..3].copy_from_slice(&[0xF2, 0xFF, 0xFF]);
                 Some(answer)
             }
-            (0xA1, 1, 3, 0xF5) if self.temper != Temper::RefusesReading => {
+            (0xA1, 1, 3, 0xF5) => {
                 self.asked[1] = true;
                 Some(vec![1, 0, 0, 0, 0, 0, 0, 0])
             }
@@ -119,7 +122,9 @@ impl Function for Pad {
 
     fn request_out(&mut self, now: u64, setup: [u8; 8], data: &[u8]) -> bool {
         match (setup[0], setup[1], setup[3], setup[2]) {
-            (0x21, 9, 3, 0xF4) if !matches!(self.temper, Temper::RefusesWriting | Temper::WantsByte) => {
+            (0x21, 9, 3, 0xF4)
+                if !matches!(self.temper, Temper::RefusesWriting | Temper::RefusesBoth | Temper::WantsByte) =>
+            {
                 if data == [0x42, 0x0C, 0, 0] {
                     self.wake(now);
                 }
@@ -134,6 +139,9 @@ impl Function for Pad {
     }
 
     fn input(&mut self, now: u64, _endpoint: u8) -> Option<Vec<u8>> {
+        if self.temper == Temper::RefusesBoth {
+            self.wake(now);
+        }
         // One report an interval; one that nobody fetched in time is lost.
         let due = (now - self.awake_since?) / REPORT_INTERVAL_US;
         if self.made > due {

@@ -114,13 +114,11 @@ impl<D: Device> Device for Rogue<D> {
         if !self.misbehaves() {
             return self.inner.data_out(now, target, toggle, bytes);
         }
-        match self.habit {
-            Habit::Silent => Handshake::Silent,
-            Habit::Naks => Handshake::Nak,
-            _ => match self.inner.data_out(now, target, toggle, bytes) {
-                Handshake::Silent => Handshake::Silent,
-                _ => Handshake::Stall,
-            },
+        match (self.habit, self.inner.data_out(now, target, toggle, bytes)) {
+            // Not for it.
+            (_, Handshake::Silent) | (Habit::Silent, _) => Handshake::Silent,
+            (Habit::Naks, _) => Handshake::Nak,
+            _ => Handshake::Stall,
         }
     }
 }

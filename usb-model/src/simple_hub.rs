@@ -263,23 +263,24 @@ impl SimpleHub {
         &self.leaf
     }
 
-    /// Gives the hub other descriptors.
-    pub fn leaf_mut(&mut self) -> &mut Leaf<Ports> {
-        &mut self.leaf
-    }
-
-    /// Passes a token on to what is plugged in; the first answer counts.
+    /// Passes a token on to what is plugged in; the first answer counts, and there should be no other.
     fn pass<T>(&self, silent: T, mut each: impl FnMut(&mut dyn Device) -> Option<T>) -> T {
-        let ports = self.leaf.function.ports.borrow();
-        for (index, port) in ports.iter().enumerate() {
+        let hub = &self.leaf.function;
+        let mut heard: Option<(usize, T)> = None;
+        for (index, port) in hub.ports.borrow().iter().enumerate() {
             let Some(device) = port.device.as_ref().filter(|_| port.status & ENABLE != 0) else { continue };
-            if self.lets_through(index as u8 + 1, port.status)
-                && let Some(answer) = each(&mut *device.borrow_mut())
-            {
-                return answer;
+            if !self.lets_through(index as u8 + 1, port.status) {
+                continue;
+            }
+            match (each(&mut *device.borrow_mut()), &heard) {
+                (Some(_), Some((first, _))) => {
+                    hub.blame(format!("ports {} and {} answer one token", first + 1, index + 1));
+                }
+                (Some(answer), None) => heard = Some((index, answer)),
+                (None, _) => {}
             }
         }
-        silent
+        heard.map_or(silent, |(_, answer)| answer)
     }
 
     /// Tells whether a token with the split that is on the wire goes through a port.

@@ -60,6 +60,7 @@ rules! {
     ResetTooShort: "A root port signals reset for 50 ms.", "USB 2.0 §7.1.7.5, TDRSTR";
     ResetRecovery: "A device has 10 ms after a reset before it is talked to.", "USB 2.0 §7.1.7.5, TRSTRCY";
     ResetUnderTraffic: "The bus is reset while no channel runs.", "Linux `dwc2/hcd.c` dwc2_hcd_reset_func";
+    AddressShared: "No two devices answer one token: only one at a time is at address 0.", "USB 2.0 §9.1.1.3 and §9.1.1.4";
     PortNotEnabled: "A channel is started only while the port is enabled, as far as software can know.", "Linux `dwc2/hcd.c` dwc2_hcd_urb_enqueue";
     NotUnmasked: "A channel is started with its end unmasked: HCINTMSK, HAINTMSK, GINTMSK, GAHBCFG.", "Linux `dwc2/hcd.c` dwc2_hc_enable_dma_ints";
     NotAcknowledged: "A channel is started with its HCINT clear.", "Linux `dwc2/hcd.c` dwc2_hc_init";
@@ -76,7 +77,7 @@ rules! {
     Toggle: "Data goes out, and is expected, with the toggle that the endpoint has reached.", "USB 2.0 §8.6; HCTSIZ.PID";
     LowSpeedBit: "HCCHAR.LSPDDEV tells whether the device is a low-speed one.", "Linux `dwc2/hcd.c` dwc2_hc_init";
     PeriodicCount: "HCCHAR's count is at least one, and an interrupt endpoint gets one packet a frame.", "Linux `dwc2/hcd.c`; USB 2.0 §5.7.3";
-    OddFrame: "HCCHAR.ODDFRM names the next (micro)frame, not the present one.", "Linux `dwc2/hcd.c` dwc2_hc_set_even_odd_frame";
+    OddFrame: "HCCHAR.ODDFRM names the (micro)frame after the one that HFNUM showed, and HFNUM was read in this one or the one before.", "Linux `dwc2/hcd.c` dwc2_hc_set_even_odd_frame";
     Ping: "After NYET, high-speed data to a device starts with a PING.", "USB 2.0 §8.5.1; HCTSIZ.DOPNG";
     SplitMissing: "A slower device behind a high-speed hub is reached by split transactions.", "USB 2.0 §11.14";
     SplitOnSlowBus: "Only a high-speed bus has split transactions.", "USB 2.0 §11.14";
@@ -88,6 +89,7 @@ rules! {
     CompleteSplitOrder: "Complete splits of one microframe keep the order of their start splits.", "USB 2.0 §11.18.8, as Linux cites it";
     CompleteWithoutStart: "A complete split follows a start split for the same endpoint.", "USB 2.0 §11.14";
     SplitRestarted: "A start split that was taken is followed by complete splits until they are answered, or fail.", "USB 2.0 §11.17.1";
+    TtNotCleared: "After three complete splits in a row that failed, a control or bulk endpoint's buffer is cleared before its next transfer.", "USB 2.0 §11.17.1 and §11.24.2.3; Linux `core/hub.c` usb_hub_clear_tt_buffer";
     SplitAbandoned: "What a translator has for a control or bulk endpoint is fetched, or cleared.", "USB 2.0 §11.17.4 and §11.24.2.3";
 }
 

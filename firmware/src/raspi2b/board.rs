@@ -28,7 +28,7 @@ const LINK_QUEUE: usize = 4096;
 const BAUD: u32 = 115_200;
 /// QEMU's model lets a channel run for ever whose device has gone, or is one of the PC's and has
 /// nothing to say: neither is a fault.
-const USB_CONTROLLER: dwc2_host::Config = dwc2_host::Config::new().with_halt_limit_us(None);
+const USB_CONTROLLER: dwc2_host::Config = dwc2_host::Config::new().with_patient_interrupts(true);
 
 static TAKEN: Mutex<Cell<bool>> = Mutex::new(Cell::new(false));
 

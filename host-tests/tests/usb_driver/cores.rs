@@ -108,6 +108,35 @@ fn a_channel_that_does_not_halt_is_named() {
     works_soon(&rig);
 }
 
+/// As QEMU's core keeps one whose device has gone.
+#[test]
+fn a_patient_channel_ends_with_its_request() {
+    let rig = Rig::new(Config::new().with_patient_interrupts(true));
+    rig.plug(Gadget::counting(Speed::Full));
+    rig.run(async {
+        let known = enumerate_root(&rig, 5).await.unwrap();
+        let mut reports = known.reports(8, 1);
+        rig.machine().core.defects.never_runs = true;
+        assert!(rig.run_for(1_000_000, reports.request_in(&mut [0; 8])).is_none());
+        assert_eq!(rig.driver.take_fault(), None);
+        rig.machine().core.defects = Defects::default();
+        // The request was dropped: its channel has 20 ms to come to an end, and 10 ms to halt.
+        let begun = rig.now();
+        assert_eq!(reports.request_in(&mut [0; 8]).await, Ok(4));
+        assert!(rig.now() - begun < 32_000, "{}", rig.now() - begun);
+        // One that does not halt then is stuck.
+        rig.machine().core.defects = Defects { never_runs: true, never_halts: true, ..Defects::default() };
+        assert!(rig.run_for(100_000, reports.request_in(&mut [0; 8])).is_none());
+        let begun = rig.now();
+        assert!(matches!(rig.fault_within(40_000), Some(Fault::ChannelStuck { .. })));
+        assert!(rig.now() - begun < 33_000, "{}", rig.now() - begun);
+        rig.machine().core.defects = Defects::default();
+    });
+    // A core that runs nothing calls the halt of a channel a break of its rules.
+    rig.take_rules();
+    works_soon(&rig);
+}
+
 #[test]
 fn a_bus_error_is_named() {
     let rig = Rig::new(Config::new());

@@ -61,7 +61,9 @@ fn everywhere(scene: impl AsyncFn(&Rig, &Culprit, Known, u16)) {
     }
 }
 
+/// After a failure of whatever kind.
 async fn works(known: &Known, packet: u16) {
+    known.clear_buffer().await;
     let mut control = known.control(packet);
     control.control_out(&setup(0x40, KEEP, 0, 0, 20), &[6; 20]).await.unwrap();
     let mut got = [0; 20];
@@ -239,9 +241,7 @@ fn one_that_vanishes_at_any_transaction_ends_in_an_error_and_the_next_one_works(
                 assert!(rig.now() - begun < 700_000);
                 // Another one in its place.
                 if let Some(mut host) = hub {
-                    if let Some(clear) = rig.driver.take_tt_clear(1) {
-                        host.control.control_out(&clear.setup, &[]).await.unwrap();
-                    }
+                    known.clear_buffer().await;
                     culprit.lock().mend();
                     let again = host.enumerate_again(&rig, 2, 6).await.unwrap();
                     works(&again, 64).await;

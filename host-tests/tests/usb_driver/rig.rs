@@ -1,6 +1,8 @@
 //! A board for the driver: the model's core and memory, an interrupt line, a clock, and an executor that polls a
 //! future only when it was woken.
 
+mod machine;
+
 use std::cell::Cell;
 use std::future::Future;
 use std::pin::Pin;
@@ -8,149 +10,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll, Wake, Waker};
 
-use dwc2_host::{Clock, Config, DMA_BYTES, DmaMemory, Dwc2, Fault, Registers};
+use dwc2_host::{Config, Dwc2, Fault};
 use usb_model::dwc2::{Build, Core};
-use usb_model::memory::CachedMemory;
+use usb_model::random::Random;
 use usb_model::violation::{Log, Rule};
 use usb_model::wire::Device;
 
-/// The register that tells the (micro)frame.
-const HFNUM: u32 = 0x408;
-/// Where the DMA memory lies on the bus.
-const BASE: u32 = 0x3000_0000;
-
-/// Changes a register write on its way, or drops it (`None`), or does something else besides.
-pub type WriteTamper = Box<dyn FnMut(&mut Machine, u32, u32) -> Option<u32> + Send>;
-/// Changes what a register read says.
-pub type ReadTamper = Box<dyn FnMut(&mut Machine, u32, u32) -> u32 + Send>;
-
-/// Which calls of `invalidate` never reach the caches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Skip {
-    #[default]
-    None,
-    /// All.
-    All,
-    /// Those after the core wrote.
-    After,
-}
-
-/// What a broken driver would do, done between a right one and the model.
-#[derive(Default)]
-pub struct Tamper {
-    write: Option<WriteTamper>,
-    read: Option<ReadTamper>,
-    pub skip_clean: bool,
-    pub skip_invalidate: Skip,
-    /// The driver's clock runs that many times too fast, less one: its waits are too short.
-    pub haste: u64,
-}
-
-/// What the driver has cost so far.
-#[derive(Debug, Default, Clone, Copy)]
-pub struct Cost {
-    /// Calls: interrupts and polls.
-    pub services: u64,
-    pub reads: u64,
-    pub writes: u64,
-    /// Reads of HFNUM, of all reads.
-    pub frame_reads: u64,
-    /// The most of them in one call.
-    pub frame_reads_most: u64,
-}
-
-/// The core, its memory, and what is done to the accesses.
-pub struct Machine {
-    pub core: Core,
-    pub memory: CachedMemory,
-    pub tamper: Tamper,
-    pub cost: Cost,
-}
-
-impl Machine {
-    fn write(&mut self, offset: u32, value: u32) {
-        self.core.write(offset, value);
-        self.core.settle(&mut self.memory);
-    }
-
-    fn advance(&mut self, until: u64) {
-        self.core.advance(until, &mut self.memory);
-        self.memory.set_now(self.core.now());
-    }
-}
-
-struct TestBoard(Arc<Mutex<Machine>>);
-
-fn lock(machine: &Mutex<Machine>) -> MutexGuard<'_, Machine> {
-    machine.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-impl Registers for TestBoard {
-    fn read_register(&mut self, offset: u32) -> u32 {
-        let mut machine = lock(&self.0);
-        machine.cost.reads += 1;
-        machine.cost.frame_reads += u64::from(offset == HFNUM);
-        let value = machine.core.read(offset);
-        let Some(mut tamper) = machine.tamper.read.take() else { return value };
-        let value = tamper(&mut machine, offset, value);
-        machine.tamper.read = Some(tamper);
-        value
-    }
-
-    fn write_register(&mut self, offset: u32, value: u32) {
-        let mut machine = lock(&self.0);
-        machine.cost.writes += 1;
-        let Some(mut tamper) = machine.tamper.write.take() else { return machine.write(offset, value) };
-        if let Some(value) = tamper(&mut machine, offset, value) {
-            machine.write(offset, value);
-        }
-        machine.tamper.write = Some(tamper);
-    }
-}
-
-impl DmaMemory for TestBoard {
-    fn length(&self) -> usize {
-        lock(&self.0).memory.length()
-    }
-
-    fn bus_address(&self) -> u32 {
-        lock(&self.0).memory.base()
-    }
-
-    fn copy_in(&mut self, offset: usize, bytes: &[u8]) {
-        lock(&self.0).memory.cpu_write(offset, bytes);
-    }
-
-    fn copy_out(&mut self, offset: usize, bytes: &mut [u8]) {
-        lock(&self.0).memory.cpu_read(offset, bytes);
-    }
-
-    fn clean(&mut self, offset: usize, length: usize) {
-        let mut machine = lock(&self.0);
-        if !machine.tamper.skip_clean {
-            machine.memory.clean(offset, length);
-        }
-    }
-
-    fn invalidate(&mut self, offset: usize, length: usize) {
-        let mut machine = lock(&self.0);
-        let skip = match machine.tamper.skip_invalidate {
-            Skip::None => false,
-            Skip::All => true,
-            Skip::After => machine.memory.is_stale(offset, length),
-        };
-        if !skip {
-            machine.memory.invalidate(offset, length);
-        }
-    }
-}
-
-impl Clock for TestBoard {
-    fn now_us(&self) -> u64 {
-        let machine = lock(&self.0);
-        machine.core.now() * (machine.tamper.haste + 1)
-    }
-}
+pub use machine::{Cost, Machine, Skip};
+use machine::{Pace, TestBoard, lock};
 
 struct Flag(AtomicBool);
 
@@ -184,9 +51,7 @@ impl Rig {
 
     pub fn on(build: Build, config: Config) -> Self {
         let log = Log::default();
-        let core = Core::new(build, log.clone());
-        let memory = CachedMemory::new(BASE, DMA_BYTES, log.clone());
-        let machine = Arc::new(Mutex::new(Machine { core, memory, tamper: Tamper::default(), cost: Cost::default() }));
+        let machine = Arc::new(Mutex::new(Machine::new(build, &log)));
         let board = Box::leak(Box::new(TestBoard(Arc::clone(&machine))));
         let driver = Box::leak(Box::new(Dwc2::new(board, config)));
         let sleepers = Sleepers::default();
@@ -253,7 +118,8 @@ impl Rig {
             }
             let up = line(&machine);
             if up {
-                let handled = machine.core.now() + self.latency.get();
+                let latency = machine.latency().unwrap_or(self.latency.get());
+                let handled = machine.core.now() + latency;
                 machine.advance(handled);
             }
             up
@@ -302,6 +168,11 @@ impl Rig {
         let cost = &mut self.machine().cost;
         cost.services += 1;
         cost.frame_reads_most = cost.frame_reads_most.max(cost.frame_reads - before);
+    }
+
+    /// Lets time pass between two accesses, and up to `latency` microseconds before an interrupt is answered.
+    pub fn take_time(&self, seed: u64, latency: usize) {
+        self.machine().pace = Some(Pace { random: Random(seed), latency });
     }
 
     /// Lets the polls come so much later from now on.

@@ -4,6 +4,7 @@
 //! cache maintenance, or speeds the driver's clock up ([`crate::rig`]). The table of rules in `docs/usb-rules.md` names a test of this module for each.
 
 mod channels;
+mod hubs;
 mod memory;
 mod splits;
 mod start;
@@ -160,6 +161,7 @@ fn every_rule_has_its_test() {
         include_str!("rules/channels.rs"),
         include_str!("rules/transfers.rs"),
         include_str!("rules/splits.rs"),
+        include_str!("rules/hubs.rs"),
     ];
     for rule in Rule::ALL {
         let head = format!("#[test]\nfn {}() {{", rule.test());

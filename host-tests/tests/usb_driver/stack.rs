@@ -38,6 +38,14 @@ impl Known {
         self.pipe(&endpoint(0, EndpointType::Control, true, bytes, 0))
     }
 
+    /// Tells its translator, if it has one, to forget what it holds for endpoint 0; a full-speed hub refuses.
+    pub async fn clear_buffer(&self) {
+        if let Some(split) = self.split {
+            let hub = Self { address: split.hub_addr(), split: None, ..*self };
+            let _ = hub.control(64).control_out(&setup(0x23, 8, u16::from(self.address) << 4, 1, 0), &[]).await;
+        }
+    }
+
     /// Interrupt endpoint 1.
     pub fn reports(&self, bytes: u16, interval_ms: u8) -> Pipe<'static, Interrupt, In> {
         self.pipe(&endpoint(1, EndpointType::Interrupt, true, bytes, interval_ms))

@@ -1,13 +1,14 @@
 //! How long things take, in the bus's own time.
 
-use dwc2_host::{Config, SpeedLimit};
+use dwc2_host::{Config, Pipe, SpeedLimit};
 use embassy_usb_driver::host::UsbPipe;
+use embassy_usb_driver::host::pipe::{In, Interrupt};
 use usb_model::hub::Hub;
 use usb_model::shared::Shared;
 use usb_model::wire::Speed;
 
 use crate::gadget::Gadget;
-use crate::rig::Rig;
+use crate::rig::{Rig, both};
 use crate::stack::{HubHost, Known, enumerate_root, setup};
 
 /// A gadget behind a hub that is plugged in at power-on.
@@ -97,6 +98,37 @@ fn interrupts_may_be_a_quarter_of_a_millisecond_late() {
                 assert_eq!(u32::from_le_bytes(report), expected, "latency {latency}");
             }
         });
+    }
+}
+
+/// Between the look at HFNUM and the start of a channel the (micro)frame may turn.
+#[test]
+fn time_may_pass_between_two_accesses() {
+    for limit in [SpeedLimit::High, SpeedLimit::Full] {
+        for seed in 0..24 {
+            let rig = Rig::new(Config::new().with_speed_limit(limit));
+            rig.take_time(seed, 1 + seed as usize * 10);
+            let mut hub = Hub::new(Speed::High);
+            hub.plug(1, Box::new(Gadget::counting(Speed::Full)));
+            hub.plug(2, Box::new(Gadget::counting(Speed::Low)));
+            rig.plug(hub);
+            rig.run(async {
+                let mut host = HubHost::on_root(&rig).await.unwrap();
+                let pad = host.enumerate(&rig, 1, 5).await.unwrap();
+                let keyboard = host.enumerate(&rig, 2, 6).await.unwrap();
+                let (mut fast, mut slow) = (pad.reports(8, 1), keyboard.reports(8, 10));
+                both(count(&mut fast, 400), count(&mut slow, 40)).await;
+            });
+        }
+    }
+}
+
+/// Reads that many reports; none is lost or comes twice.
+async fn count(reports: &mut Pipe<'static, Interrupt, In>, number: u32) {
+    for expected in 0..number {
+        let mut report = [0; 4];
+        assert_eq!(reports.request_in(&mut report).await, Ok(4));
+        assert_eq!(u32::from_le_bytes(report), expected);
     }
 }
 

@@ -5,11 +5,14 @@
 //! | `times` | how long it takes to the first report, and from a report to the state |
 //! | `cost` | how often the driver runs, and what it asks of the core's registers |
 //! | `swaps` | one device in another's place, at any moment |
+//! | `beside` | a good device that starts beside one that fails |
 //! | `speed` | the root port held at full speed while everything runs |
-//! | `batch`, `rogues` | devices that are wrong, 100,000 of them |
+//! | `batch`, `reach`, `rogues` | devices that are wrong, 100,000 of them |
 
 mod batch;
+mod beside;
 mod cost;
+mod reach;
 mod rogues;
 mod speed;
 mod swaps;

@@ -73,7 +73,14 @@ fn more_keys_than_six_change_nothing() {
 
 #[test]
 fn every_dualshock3_wakes() {
-    for temper in [Temper::Sony, Temper::RefusesReading, Temper::RefusesWriting, Temper::WantsByte, Temper::Shanwan] {
+    for temper in [
+        Temper::Sony,
+        Temper::RefusesReading,
+        Temper::RefusesWriting,
+        Temper::RefusesBoth,
+        Temper::WantsByte,
+        Temper::Shanwan,
+    ] {
         let mut bench = Bench::new();
         let pad = shared(dualshock3(temper));
         bench.host.plug(pad.clone());
@@ -83,6 +90,7 @@ fn every_dualshock3_wakes() {
         assert!(pad.function.is_awake(), "{temper:?}");
         assert!(!pad.function.shakes, "{temper:?}");
         assert!(bench.state().pad_present, "{temper:?}");
+        assert!(!bench.reports.is_empty(), "{temper:?}");
         assert_eq!(bench.state().battery, Battery::Charging);
         assert_eq!(pad.function.outputs.len(), 1, "{temper:?}");
         assert_eq!((pad.function.outputs[0].len(), pad.function.outputs[0][9]), (35, 0x02), "the first lamp");

@@ -48,7 +48,9 @@ pub(super) enum Task {
     ClearReset {
         speed: Option<Speed>,
     },
-    /// Who is there is cut off.
+    /// Who failed is cut off, before it is tried again.
+    CutOff,
+    /// Who is there is cut off for good.
     Disable {
         fault: Fault,
     },
@@ -66,11 +68,8 @@ impl Port {
     /// Returns what it wants done: who is there reset, or cut off.
     pub(super) fn wish(&mut self, link: &Link, memory: &Memory) -> Option<Task> {
         if let Some(device) = self.device {
-            if memory.slots.has_failed(device) {
-                self.let_go(memory);
-                self.due = Some(memory.after(Wait::RETRY_PAUSE));
-            }
-            return None;
+            // Until it is cut off it may still answer at address 0, and has the turn there.
+            return memory.slots.has_failed(device).then_some(Task::CutOff);
         }
         if !memory.has_come(self.due?) {
             return None;
@@ -114,7 +113,7 @@ impl Port {
             Task::Power => Setup::set_port_feature(feature::POWER, self.number),
             Task::Reset => Setup::set_port_feature(feature::RESET, self.number),
             Task::ClearReset { .. } => Setup::clear_hub_feature(feature::CHANGE_RESET, self.number),
-            Task::Disable { .. } => Setup::clear_hub_feature(feature::ENABLE, self.number),
+            Task::CutOff | Task::Disable { .. } => Setup::clear_hub_feature(feature::ENABLE, self.number),
         };
         Some((link.order(memory, Step::Port, setup), task))
     }
@@ -152,6 +151,11 @@ impl Port {
                 }
             }
             Task::ClearReset { speed } => self.was_reset(link, memory, speed),
+            Task::CutOff => {
+                self.let_go(memory);
+                self.due = Some(memory.after(Wait::RETRY_PAUSE));
+                None
+            }
             Task::Disable { fault } => {
                 memory.tell_fault(link.place().below(self.number).unwrap_or(link.place()), fault);
                 None
@@ -167,10 +171,8 @@ impl Port {
                 let route = link.route.below(link.address, self.number, place, speed);
                 memory.slots.begin(device, route);
             }
-            _ => {
-                self.let_go(memory);
-                self.due = Some(memory.after(Wait::RETRY_PAUSE));
-            }
+            // It may be at address 0 all the same.
+            _ => return Some(Task::CutOff),
         }
         None
     }

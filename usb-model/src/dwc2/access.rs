@@ -168,10 +168,11 @@ impl Core {
         self.channels.iter().enumerate().map(bit).fold(0, |all, bit| all | bit)
     }
 
-    fn frame_register(&self) -> u32 {
+    fn frame_register(&mut self) -> u32 {
         if !self.port.enabled() {
             return 0x3fff;
         }
+        self.frame_read = self.frame_index(self.now);
         let (index, clocks) = (self.frame_index(self.now), u64::from(self.registers.interval) + 1);
         let left = (self.frame_start(index + 1) - self.now) * clocks / self.frame_us();
         (index as u32 & 0x3fff) | (left.min(0xffff) as u32) << 16

@@ -99,12 +99,15 @@ impl Core {
         if !program.periodic() {
             return (Some(soon.max(self.wire_free)), None);
         }
-        let present = self.frame_index(self.now);
-        let same = present % 2 == u64::from(program.odd_frame);
-        if same {
-            self.blame(Rule::OddFrame, format!("{} in frame {present}", program.name()));
+        let (present, read) = (self.frame_index(self.now), self.frame_read);
+        let named_read = read % 2 == u64::from(program.odd_frame);
+        if named_read || present > read + 1 {
+            let detail = format!("{} in frame {present}, after HFNUM showed {read}", program.name());
+            self.blame(Rule::OddFrame, detail);
         }
-        let frame = if same { present } else { present + 1 };
+        // One that is named is taken at once, while it lasts, and the other one when it begins: Linux `dwc2/hcd.c`,
+        // dwc2_hc_set_even_odd_frame. So who named the next one, and was overtaken by it, has it still.
+        let frame = if present % 2 == u64::from(program.odd_frame) { present } else { present + 1 };
         (Some(soon.max(self.frame_start(frame) + 1)), Some(frame))
     }
 

@@ -77,6 +77,8 @@ pub struct Core {
     phy_at_reset: Option<u32>,
     /// Start of frame that software has acknowledged.
     frame_seen: u64,
+    /// The frame that HFNUM showed last.
+    frame_read: u64,
     disconnected: bool,
     port: Port,
     device: Option<Plug>,
@@ -104,6 +106,7 @@ impl Core {
             flushed: (false, false),
             phy_at_reset: None,
             frame_seen: 0,
+            frame_read: 0,
             disconnected: false,
             port: Port::default(),
             device: None,

@@ -146,7 +146,7 @@ impl Core {
         self.port.changes |= HPRT_ENABLE_CHANGED;
         self.port.read &= !HPRT_ENABLE_CHANGED;
         self.port.epoch = self.now;
-        self.frame_seen = 0;
+        (self.frame_seen, self.frame_read) = (0, 0);
         self.snoop = Default::default();
         self.splits = Default::default();
     }

@@ -10,6 +10,9 @@ use crate::split::{Completed, Kind, Start, Started, Token};
 use crate::violation::Rule;
 use crate::wire::Speed;
 
+/// Failures in a row that end a transfer (USB 2.0 §11.17.1).
+const STRIKES: u8 = 3;
+
 /// A split endpoint: hub, address, number, and the direction unless it is a control endpoint.
 type Pipe = (u8, u8, u8, bool);
 
@@ -21,8 +24,10 @@ struct Pending {
     order: u64,
     /// Bytes that it carried.
     bytes: usize,
-    /// A complete split failed: the start split may be repeated.
+    /// The last complete split failed: the start split may be repeated.
     failed: bool,
+    /// Complete splits that failed in a row.
+    failures: u8,
 }
 
 /// What the core has split so far.
@@ -95,8 +100,10 @@ impl Core {
         if heard == HCINT_ACK {
             self.splits.starts += 1;
             let (microframe, order) = (self.frame_index(self.now), self.splits.starts);
-            let pending = Pending { microframe, order, bytes: program.bytes, failed: false };
-            self.splits.pending.insert(pipe(program, split), pending);
+            let key = pipe(program, split);
+            let failures = self.splits.pending.get(&key).map_or(0, |pending| pending.failures);
+            let pending = Pending { microframe, order, bytes: program.bytes, failed: false, failures };
+            self.splits.pending.insert(key, pending);
             if let Start::Setup(packet) = start {
                 self.snoop.setup(program, packet);
             }
@@ -107,8 +114,11 @@ impl Core {
     fn check_start_split(&mut self, program: &Program, split: Split) {
         let microframe = self.frame_index(self.now);
         let owed = self.splits.pending.get(&pipe(program, split));
-        if !program.periodic() && owed.is_some_and(|pending| !pending.failed) {
-            self.blame(Rule::SplitRestarted, program.name());
+        match owed.map(|pending| (pending.failed, pending.failures)) {
+            _ if program.periodic() => {}
+            Some((false, _)) => self.blame(Rule::SplitRestarted, program.name()),
+            Some((true, STRIKES..)) => self.blame(Rule::TtNotCleared, program.name()),
+            _ => {}
         }
         if program.periodic() && microframe % 8 == 6 {
             self.blame(Rule::StartSplitFrame, format!("{} in microframe {microframe}", program.name()));
@@ -124,10 +134,17 @@ impl Core {
         let answer = hub.complete_split(self.now, token);
         let key = pipe(program, split);
         match answer {
-            Completed::Nyet => return self.finish(index, HCINT_NYET),
+            Completed::Nyet => {
+                // The translator lives; a SETUP's failures stay counted (EHCI 1.0 §4.12.1).
+                if let Some(pending) = self.splits.pending.get_mut(&key).filter(|_| !program.is_setup()) {
+                    pending.failures = 0;
+                }
+                return self.finish(index, HCINT_NYET);
+            }
             Completed::Error | Completed::Silent => {
                 if let Some(pending) = self.splits.pending.get_mut(&key) {
                     pending.failed = true;
+                    pending.failures = pending.failures.saturating_add(1);
                 }
                 return self.finish(index, HCINT_NO_ANSWER);
             }

@@ -106,7 +106,7 @@ impl Hub {
         if self.low_next && self.speed == Speed::Full { Speed::Low } else { self.speed }
     }
 
-    /// Asks each device that hears the next transaction, until one answers.
+    /// Asks each device that hears the next transaction. Two answers would garble each other; here the first one counts.
     fn ask<R: PartialEq>(
         &mut self,
         now: u64,
@@ -114,19 +114,25 @@ impl Hub {
         mut say: impl FnMut(&mut dyn Device) -> R,
     ) -> (R, Option<usize>) {
         let (speed, low) = (self.downstream(), self.low_next);
+        let mut heard: Option<(R, usize)> = None;
         for (index, port) in self.ports.iter_mut().enumerate() {
             let recovering = now < port.reset_end + RECOVERY_US;
             let Some(device) = port.at(speed) else { continue };
             device.low_speed_next(low);
             let answer = say(device);
-            if answer != silent {
-                if recovering {
-                    self.complaints.push((Rule::ResetRecovery, format!("hub port {}", index + 1)));
-                }
-                return (answer, Some(index));
+            if answer == silent {
+                continue;
+            }
+            if recovering {
+                self.complaints.push((Rule::ResetRecovery, format!("hub port {}", index + 1)));
+            }
+            if let Some((_, first)) = &heard {
+                self.complaints.push((Rule::AddressShared, format!("hub ports {} and {}", first + 1, index + 1)));
+            } else {
+                heard = Some((answer, index));
             }
         }
-        (silent, None)
+        heard.map_or((silent, None), |(answer, index)| (answer, Some(index)))
     }
 
     fn is_own(&self, target: Target) -> bool {
@@ -135,7 +141,7 @@ impl Hub {
 
     /// A slower device in the default state cannot hear what is said at high speed. Address 0 is for who was reset last.
     fn check_unsplit(&mut self, target: Target) {
-        let last = self.ports.iter().max_by_key(|port| port.reset_end).and_then(Port::speed);
+        let last = self.ports.iter().max_by_key(|port| port.reset_end).and_then(|port| port.reset_speed);
         let slower = last.is_some_and(|speed| speed != Speed::High);
         if self.speed == Speed::High && target.address == 0 && self.address != 0 && slower {
             self.complaints.push((Rule::SplitMissing, "address 0 at high speed".into()));

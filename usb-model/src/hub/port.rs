@@ -34,6 +34,8 @@ pub(super) struct Port {
     enabled: bool,
     reset_until: Option<u64>,
     pub reset_end: u64,
+    /// The speed of who was reset then; somebody else may be there by now.
+    pub reset_speed: Option<Speed>,
     speed: Option<Speed>,
     pub changes: u16,
 }
@@ -58,6 +60,7 @@ impl Port {
             self.reset_end = end;
             if let (Some(device), Some(speed)) = (&mut self.device, self.speed) {
                 device.reset(end, speed);
+                self.reset_speed = Some(speed);
                 self.enabled = true;
             }
         }
@@ -135,7 +138,7 @@ impl Port {
         }
     }
 
-    pub fn speed(&self) -> Option<Speed> {
+    fn speed(&self) -> Option<Speed> {
         self.speed.filter(|_| self.connected)
     }
 

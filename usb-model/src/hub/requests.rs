@@ -2,7 +2,7 @@
 
 use super::{Hub, descriptors};
 use crate::violation::Rule;
-use crate::wire::Target;
+use crate::wire::{Speed, Target};
 
 /// Port features (USB 2.0 table 11-17).
 const PORT_ENABLE: u16 = 1;
@@ -50,7 +50,8 @@ impl Hub {
                 let known = matches!(value, PORT_RESET | PORT_POWER);
                 (known && port < self.ports.len()).then(Vec::new)
             }
-            (0x23, 8 | 9) => Some(Vec::new()),
+            // Of a translator, which there is at high speed.
+            (0x23, 8 | 9) => (self.speed == Speed::High).then(Vec::new),
             _ => None,
         }
     }

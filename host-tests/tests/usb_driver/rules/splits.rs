@@ -137,7 +137,7 @@ fn split_restarted() {
 
 #[test]
 fn split_abandoned() {
-    let rig = Rig::new(Config::new().with_halt_limit_us(None));
+    let rig = Rig::new(Config::new().with_halt_limit_us(u32::MAX));
     // Complete splits of control endpoints never leave the driver.
     rig.tamper_writes(|machine, offset, value| {
         let complete = starts(offset, value) && machine.core.read(offset + offset::HCSPLT) & COMPLETE != 0;

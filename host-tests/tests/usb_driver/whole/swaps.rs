@@ -1,7 +1,8 @@
 //! One device in another's place, at any moment.
 
 use dwc2_host::{Config, SpeedLimit};
-use usb_input::{Event, Kind};
+use usb_input::{Event, Kind, Place};
+use usb_model::dualshock3::{Temper, dualshock3};
 use usb_model::hub::Hub;
 use usb_model::keyboard::{Form, keyboard};
 use usb_model::shared::Shared;
@@ -33,5 +34,48 @@ fn whoever_takes_anothers_place_is_found() {
             assert!(!whole.events.iter().any(|event| matches!(event, Event::Fault { .. })), "{:?}", whole.events);
             whole.events.clear();
         }
+    }
+}
+
+/// What is said to the one that was reset is not said to the one that takes its place, whatever speeds they have.
+#[test]
+fn whoever_goes_while_it_starts_breaks_no_rule() {
+    for speeds in [[Speed::High, Speed::Full], [Speed::Low, Speed::High]] {
+        let mut whole = Whole::new(Config::new());
+        let hub = Shared::new(Hub::new(Speed::High));
+        // Somebody who is read, so that the hub is spoken to all the time.
+        hub.lock().plug(2, Box::new(keyboard(Form::Boot, Speed::Low)));
+        whole.rig.plug(hub.clone());
+        assert!(whole.run_until(1_000_000, |whole| whole.is_attached(port(2), Kind::BootKeyboard)));
+        // The hub tells of it, it settles, is reset, and is asked for all that it has.
+        for moment in (100_000..500_000).step_by(1_700) {
+            let [first, second] = speeds.map(|speed| Box::new(keyboard(Form::Boot, speed)));
+            hub.lock().plug(1, first);
+            whole.run(moment);
+            hub.lock().plug(1, second);
+            whole.run(1_200_000);
+            assert!(whole.is_attached(port(1), Kind::BootKeyboard), "after {moment} us: {:?}", whole.events);
+            drop(hub.lock().unplug(1));
+            whole.run(300_000);
+            whole.events.clear();
+        }
+    }
+}
+
+/// At any moment of a frame: the core is reset whatever it is at, and whatever interrupts it was to raise.
+#[test]
+fn the_hub_itself_may_be_pulled_out() {
+    let mut whole = Whole::new(Config::new());
+    let hub = Shared::new(Hub::new(Speed::High));
+    hub.lock().plug(1, Box::new(dualshock3(Temper::Sony)));
+    for moment in (0..2_000).step_by(70) {
+        whole.rig.plug(hub.clone());
+        assert!(whole.run_until(1_500_000, |whole| whole.is_attached(port(1), Kind::DualShock3)));
+        let now = whole.now();
+        whole.rig.pass_until(now + moment);
+        whole.rig.unplug();
+        whole.run(10_000);
+        assert!(whole.is_detached(port(1)) && whole.is_detached(Place::ROOT), "after {moment} us: {:?}", whole.events);
+        whole.events.clear();
     }
 }

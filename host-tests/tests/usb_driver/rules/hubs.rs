@@ -1,0 +1,50 @@
+//! Rules that a hub watches.
+
+use dwc2_host::Config;
+use embassy_usb_driver::host::{PipeError, UsbPipe};
+use usb_model::faulty::{Fault, Faulty};
+use usb_model::hub::Hub;
+use usb_model::shared::Shared;
+use usb_model::violation::Rule;
+use usb_model::wire::Speed;
+
+use super::{assert_broken, full_speed_rig};
+use crate::gadget::{Gadget, KEEP};
+use crate::rig::Rig;
+use crate::stack::{HubHost, setup};
+
+#[test]
+fn address_shared() {
+    let rig = full_speed_rig();
+    let mut hub = Hub::new(Speed::Full);
+    hub.plug(1, Box::new(Gadget::new(Speed::Full)));
+    hub.plug(2, Box::new(Gadget::new(Speed::Full)));
+    rig.plug(hub);
+    // A stack that resets the second device while the first one is at address 0 still.
+    rig.run(async {
+        let mut host = HubHost::on_root(&rig).await.unwrap();
+        host.reset_port(&rig, 1).await.unwrap();
+        let _ = host.enumerate(&rig, 2, 5).await;
+    });
+    assert_broken(&rig, Rule::AddressShared);
+}
+
+#[test]
+fn tt_not_cleared() {
+    let rig = Rig::new(Config::new());
+    let device = Shared::new(Faulty::new(Gadget::new(Speed::Full)));
+    let mut hub = Hub::new(Speed::High);
+    hub.plug(1, Box::new(device.clone()));
+    rig.plug(hub);
+    // A stack that tries again at once.
+    rig.run(async {
+        let mut host = HubHost::on_root(&rig).await.unwrap();
+        let mut control = host.enumerate(&rig, 1, 5).await.unwrap().control(64);
+        device.lock().break_for(2, 3, Fault::Vanish);
+        let request = setup(0x40, KEEP, 0, 0, 20);
+        assert_eq!(control.control_out(&request, &[6; 20]).await, Err(PipeError::BadResponse));
+        assert_eq!(rig.take_rules(), []);
+        assert_eq!(control.control_out(&request, &[6; 20]).await, Ok(()));
+    });
+    assert_broken(&rig, Rule::TtNotCleared);
+}
