@@ -94,6 +94,7 @@ const CHECKS: &[Check] = &[
         name: "simulator: and with the FPGA's design, from its VGA pins",
         run: simulator::demonstration_on_the_design,
     },
+    Check { name: "simulator: a mesh of 70,000 triangles is drawn as on this computer", run: mesh::in_the_simulator },
     Check { name: "simulator: what goes wrong around the board is told and survived", run: simulator::faults },
     Check { name: "simulator: clippy finds nothing in its window and its FPGA", run: |_| simulator::clippy() },
     Check { name: "a serial line that loses bytes costs what it carried, no more", run: board::lossy_line },

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fs;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
@@ -12,7 +13,8 @@ use models::compile::{Options, compile};
 
 use super::State;
 use crate::cli::Board;
-use crate::machine::{Link, Machine, with_host_and_mesh};
+use crate::machine::{Link, Machine, Simulated, with_host_and_mesh};
+use crate::simulated::{Build, Design, Simulator};
 
 /// Rings and sides of a torus of 70,000 triangles.
 const RINGS: u32 = 250;
@@ -40,12 +42,39 @@ pub(super) fn in_memory(state: &mut State) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Starts a board with a file in its memory, waits for the line that tells of it, and draws a frame of the model.
-fn on_board(state: &State, board: Board, mesh: &[u8], line: &str) -> anyhow::Result<FrameReport> {
+/// The DE1-SoC's image draws it in the simulator, and shows what this computer draws.
+pub(super) fn in_the_simulator(state: &mut State) -> anyhow::Result<()> {
+    let bytes = compile(&torus(), &Options::default())?.bytes;
+    let here = with_host_and_mesh(bytes.clone(), |machine| first_frame(machine))?;
+    let elf = state.elves.get(&Board::De1Soc).context("the firmware for de1-soc was not built")?;
+    let (folder, file) = write(state, &bytes)?;
+    let simulator = Simulator::prepare(Design::Model, false, Build::Checked, &state.progress)?.with_mesh(Some(file));
+    let mut machine = Simulated::start(&simulator, elf, &folder)?;
+    let there = first_frame(&mut machine)?;
+    ensure!(
+        (there.triangles_submitted, there.triangles_drawn) == (here.triangles_submitted, here.triangles_drawn),
+        "the board submits {} triangles and draws {}, this computer {} and {}",
+        there.triangles_submitted,
+        there.triangles_drawn,
+        here.triangles_submitted,
+        here.triangles_drawn
+    );
+    ensure!(Some(machine.screen()?.0) == here.checksum, "the board shows another picture than this computer");
+    Ok(())
+}
+
+/// Writes a mesh file; returns its folder and its name.
+fn write(state: &State, mesh: &[u8]) -> anyhow::Result<(PathBuf, PathBuf)> {
     let folder = state.folder("mesh");
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let file = folder.join("in-memory.mesh");
     fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok((folder, file))
+}
+
+/// Starts a board with a file in its memory, waits for the line that tells of it, and draws a frame of the model.
+fn on_board(state: &State, board: Board, mesh: &[u8], line: &str) -> anyhow::Result<FrameReport> {
+    let (folder, file) = write(state, mesh)?;
     let mut machine = state.bootable(board)?.start_with_mesh(&folder, Some(file))?;
     let told =
         machine.qemu().wait_for_line("what the firmware says of the mesh", PATIENCE, |text| text.starts_with(line))?;
