@@ -1,10 +1,12 @@
 //! What the processor sees: RAM, and registers behind [`Hardware`].
 
+mod hint;
 mod lent;
 
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use hint::Hint;
 use lent::Lent;
 
 use crate::cache::{Attribute, Caches, Operation};
@@ -19,15 +21,6 @@ const SDRAM_BYTES: u32 = 1 << 30;
 const OCRAM: (u32, u32) = (0xFFFF_0000, 0x1_0000);
 /// Where U-Boot has moved itself; its exception vectors are the first thing there.
 pub const UBOOT: u32 = 0x3F00_0000;
-
-/// A wait for an interrupt or an event was fetched.
-const HINT_WAIT: u32 = 0x0320_F002;
-const HINT_WAIT_MASK: u32 = 0x0FFF_FFFE;
-/// DSB or DMB, of any kind.
-const BARRIER: u32 = 0xF57F_F040;
-const BARRIER_MASK: u32 = 0xFFFF_FFC0;
-/// ISB looks almost the same.
-const BARRIER_ISB: u32 = 0x20;
 
 /// Beside a page's [`Attribute`]: a bus master has, or had, some of the page.
 const LENT: u8 = 1 << 7;
@@ -57,6 +50,8 @@ pub struct Bus {
     now: AtomicU64,
     deadline: AtomicU64,
     instruction: AtomicU32,
+    /// What was fetched last.
+    half: AtomicU32,
     interrupt: AtomicBool,
     violation: Mutex<Option<Violation>>,
     lent: Lent,
@@ -77,6 +72,7 @@ impl Bus {
             now: AtomicU64::new(0),
             deadline: AtomicU64::new(0),
             instruction: AtomicU32::new(0),
+            half: AtomicU32::new(0),
             interrupt: AtomicBool::new(false),
             violation: Mutex::new(None),
             lent: Lent::default(),
@@ -226,10 +222,12 @@ impl Bus {
             return Err(self.refuse(Access::Fetch, address, "memory", needed));
         }
         let word = ram.read(address, bytes);
-        if word & HINT_WAIT_MASK == HINT_WAIT {
-            self.set_deadline(0);
-        } else if word & BARRIER_MASK == BARRIER && word & BARRIER_ISB == 0 {
-            self.barrier();
+        // Thumb code comes in halves.
+        let before = self.half.swap(word, Relaxed);
+        match if bytes == 2 { hint::of_thumb(before, word) } else { hint::of(word) } {
+            Some(Hint::Wait) => self.set_deadline(0),
+            Some(Hint::Barrier) => self.barrier(),
+            None => {}
         }
         Ok(word)
     }

@@ -22,6 +22,8 @@ pub mod cache;
 pub mod cpu;
 pub mod devices;
 pub mod fpga;
+#[cfg(any(test, all(feature = "window", target_os = "linux")))]
+mod gamepad_mapping;
 pub mod image;
 #[cfg(feature = "window")]
 pub mod live;

@@ -1,5 +1,7 @@
 //! The board in a window, with the PC's keyboard as its USB keyboard.
 
+#[cfg(target_os = "linux")]
+mod gamepad;
 mod keys;
 
 use std::error::Error;
@@ -30,12 +32,24 @@ pub fn run(machine: Machine, file: File) -> Result<(), Box<dyn Error>> {
     let mut window = Window::new("DE1-SoC", WIDTH, HEIGHT, WindowOptions::default())
         .map_err(|error| format!("no window ({error}): use --headless, or start an X server"))?;
     machine.hardware(|hardware| hardware.usb.plug_keyboard());
-    let mut live = Live { machine, file, written: 0, keys: Vec::new(), switches: 0 };
+    let mut live = Live {
+        machine,
+        file,
+        written: 0,
+        keys: Vec::new(),
+        switches: 0,
+        #[cfg(target_os = "linux")]
+        gamepad: None,
+    };
+    #[cfg(target_os = "linux")]
+    live.find_gamepad();
     let mut pixels = vec![0; WIDTH * HEIGHT];
     let mut meter = Meter::new();
     while window.is_open() {
         let started = Instant::now();
         live.take_keys(window.get_keys());
+        #[cfg(target_os = "linux")]
+        live.take_gamepad();
         live.run()?;
         let now = live.machine.now();
         let screen = live.machine.hardware(|hardware| {
@@ -63,6 +77,9 @@ struct Live {
     written: usize,
     keys: Vec<Key>,
     switches: u16,
+    /// A gamepad of the PC, which is the board's DualShock 3.
+    #[cfg(target_os = "linux")]
+    gamepad: Option<gamepad::Gamepad>,
 }
 
 impl Live {
@@ -76,6 +93,31 @@ impl Live {
             println!("[{:.0} ms: reset by {cause:?}]", in_milliseconds(self.machine.now()));
         }
         Ok(())
+    }
+
+    /// Plugs a DualShock 3 in if the PC has a gamepad.
+    #[cfg(target_os = "linux")]
+    fn find_gamepad(&mut self) {
+        match gamepad::Gamepad::find() {
+            Some((gamepad, name)) => {
+                println!("{name} is the board's DualShock 3, without its tilt");
+                self.gamepad = Some(gamepad);
+                self.machine.hardware(|hardware| hardware.usb.plug_pad());
+            }
+            None => println!("no gamepad that may be read is plugged into this computer: the board has none"),
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    fn take_gamepad(&mut self) {
+        let Some(gamepad) = &mut self.gamepad else { return };
+        if let Some(report) = gamepad.report() {
+            self.machine.hardware(|hardware| hardware.usb.pad().lock().function.set(|bytes| *bytes = report));
+        } else {
+            println!("the gamepad has gone");
+            self.gamepad = None;
+            self.machine.hardware(|hardware| hardware.usb.unplug_pad());
+        }
     }
 
     fn take_keys(&mut self, keys: Vec<Key>) {

@@ -24,11 +24,25 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// Returns a word by its index, unless the line that holds it may not have left the data cache.
+    /// Returns the word at an offset in the page, unless that is misaligned, or the line that holds it may not have
+    /// left the data cache.
     #[inline(always)]
-    pub fn fetch(&self, index: usize) -> Option<u32> {
-        let line = self.lines[index / (LINE_BYTES / 4) as usize].load(Relaxed);
-        cache::is_fetched(line).then(|| self.words[index].load(Relaxed))
+    pub fn fetch(&self, offset: u32) -> Option<u32> {
+        let fetched = cache::is_fetched(self.lines[(offset / LINE_BYTES) as usize].load(Relaxed));
+        (fetched && offset & 3 == 0).then(|| self.words[(offset / 4) as usize].load(Relaxed))
+    }
+
+    /// Returns an instruction of Thumb code likewise: a half word, or two with the first on top. One that ends on
+    /// another page is none.
+    #[inline(always)]
+    pub fn fetch_thumb(&self, offset: u32) -> Option<u32> {
+        let half = |offset: u32| Some(self.fetch(offset & !3)? >> (8 * (offset & 2)) & 0xFFFF);
+        let first = half(offset & !1)?;
+        if first < 0xE800 {
+            return Some(first);
+        }
+        let second = offset + 2;
+        if second as usize >= 4 * self.words.len() { None } else { Some(first << 16 | half(second)?) }
     }
 }
 

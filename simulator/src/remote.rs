@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::cache::Counts;
 use crate::machine::{Event, Machine};
 use crate::time::{in_milliseconds, in_nanoseconds, milliseconds};
 use crate::violation::Violation;
@@ -33,6 +34,8 @@ pub struct Done {
     pub nanoseconds: u64,
     /// Instructions since the last reset.
     pub instructions: u64,
+    /// What was done to caches, and by bus masters.
+    pub caches: Counts,
 }
 
 /// For how long a frame is waited for, in milliseconds of virtual time.
@@ -116,6 +119,7 @@ impl Remote {
             frames: self.machine.frames_shown(),
             nanoseconds: in_nanoseconds(self.machine.now()),
             instructions: self.machine.instructions(),
+            caches: self.machine.cache_counts(),
         }))
     }
 

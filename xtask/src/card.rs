@@ -26,6 +26,8 @@ use program::Program;
 pub const PROGRAM_NAME: &str = "halfspace.bin";
 /// Name of the FPGA's image on the card.
 pub const FPGA_IMAGE_NAME: &str = "halfspace.rbf";
+/// Name of the model's mesh file on the card.
+pub const MESH_NAME: &str = "model.mesh";
 /// Name of U-Boot's script on the card.
 pub const SCRIPT_NAME: &str = "boot.scr";
 
@@ -38,14 +40,24 @@ pub struct CardFile {
     pub bytes: Vec<u8>,
 }
 
-/// Returns the files that U-Boot wants, the FPGA's image if there is one.
-pub fn files(program: &Program, fpga_image: Option<Vec<u8>>) -> Vec<CardFile> {
+/// What may be on a card besides.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Extras {
+    /// The FPGA's image.
+    pub fpga_image: Option<Vec<u8>>,
+    /// A model as a mesh file.
+    pub mesh: Option<Vec<u8>>,
+}
+
+/// Returns the files that U-Boot wants, and what there is besides.
+pub fn files(program: &Program, extras: Extras) -> Vec<CardFile> {
     let script = script::image(&script::text(program.address));
     let mut files = vec![
         CardFile { name: SCRIPT_NAME, bytes: script },
         CardFile { name: PROGRAM_NAME, bytes: program.bytes.clone() },
     ];
-    files.extend(fpga_image.map(|bytes| CardFile { name: FPGA_IMAGE_NAME, bytes }));
+    files.extend(extras.fpga_image.map(|bytes| CardFile { name: FPGA_IMAGE_NAME, bytes }));
+    files.extend(extras.mesh.map(|bytes| CardFile { name: MESH_NAME, bytes }));
     files
 }
 
@@ -63,7 +75,7 @@ pub fn read_fpga_image(path: &Path) -> anyhow::Result<Vec<u8>> {
 
 /// A raw image has no mark of its own; what is told is what it surely is not.
 fn check_fpga_image(bytes: &[u8]) -> anyhow::Result<()> {
-    const LARGEST: usize = (script::FPGA_IMAGE_END - script::FPGA_IMAGE) as usize;
+    const LARGEST: usize = (script::MESH - script::FPGA_IMAGE) as usize;
     const OTHERS: [(&[u8], &str); 4] = [
         (b"SOF", "a .sof, which is for JTAG"),
         (b"POF", "a .pof, which is for the configuration memory"),
@@ -79,6 +91,22 @@ fn check_fpga_image(bytes: &[u8]) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Reads a mesh file that U-Boot shall load.
+///
+/// # Errors
+/// When it cannot be read, or does not fit where U-Boot loads it.
+pub fn read_mesh(path: &Path) -> anyhow::Result<Vec<u8>> {
+    const LARGEST: usize = (script::FILES_END - script::MESH) as usize;
+    let bytes = std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    ensure!(
+        bytes.len() <= LARGEST,
+        "{} has {} bytes, and U-Boot has room for {LARGEST}: use a model of fewer triangles",
+        path.display(),
+        bytes.len()
+    );
+    Ok(bytes)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,14 +118,18 @@ mod tests {
         assert!(refusal(b"SOF\0\x01").contains("it is a .sof, which is for JTAG: give the halfspace.rbf"));
         assert!(refusal(b"").contains("it is empty"));
         assert!(refusal(b"\x7fELF\x01").contains("it is a program"));
-        assert!(refusal(&vec![0xFF; (128 << 20) + 1]).contains("room for 134217728"));
+        assert!(refusal(&vec![0xFF; (32 << 20) + 1]).contains("room for 33554432"));
     }
 
     #[test]
-    fn the_fpga_s_image_is_on_the_card_only_if_given() {
+    fn an_fpga_image_and_a_mesh_are_on_the_card_only_if_given() {
         let program = Program { address: 0x0100_0000, bytes: vec![1, 2, 3, 4] };
-        let names = |image| files(&program, image).iter().map(|file| file.name).collect::<Vec<_>>();
-        assert_eq!(names(None), ["boot.scr", "halfspace.bin"]);
-        assert_eq!(names(Some(vec![0xFF; 8])), ["boot.scr", "halfspace.bin", "halfspace.rbf"]);
+        let some = || Some(vec![0xFF; 8]);
+        let names = |fpga_image, mesh| {
+            files(&program, Extras { fpga_image, mesh }).iter().map(|file| file.name).collect::<Vec<_>>()
+        };
+        assert_eq!(names(None, None), ["boot.scr", "halfspace.bin"]);
+        assert_eq!(names(some(), None), ["boot.scr", "halfspace.bin", "halfspace.rbf"]);
+        assert_eq!(names(None, some()), ["boot.scr", "halfspace.bin", "model.mesh"]);
     }
 }

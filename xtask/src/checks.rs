@@ -120,6 +120,7 @@ const CHECKS: &[Check] = &[
     beside("U-Boot follows the script of the card image", uboot::follows_the_script),
     alone("simulator: its tests pass, and what goes wrong around the board is told and survived", simulator::tests),
     beside("simulator: the image's demonstration equals the golden one", simulator::demonstration),
+    beside("simulator: a mesh of 70,000 triangles is drawn as on this computer", mesh::in_the_simulator),
     beside("simulator: and with the FPGA's design, from its VGA pins", simulator::demonstration_on_the_design),
     beside("QEMU is handled well", |_| cargo::qemu_tests()),
     beside("the demonstration on vexpress-a9 equals the golden one and this computer's own", board::demonstration),

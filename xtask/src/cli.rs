@@ -202,6 +202,9 @@ pub struct ImageArguments {
     /// FPGA image for the card: fpga/build/halfspace.rbf
     #[arg(long, value_name = "FILE")]
     pub rbf: Option<PathBuf>,
+    /// Model that is shown from the card: one of those that render reads, put on it as a .mesh file
+    #[arg(long, value_name = "MODEL")]
+    pub mesh: Option<PathBuf>,
     /// U-Boot with its preloader (u-boot-with-spl.sfp) instead of one that is built here
     #[arg(long, value_name = "FILE")]
     pub uboot: Option<PathBuf>,

@@ -21,7 +21,7 @@ use crate::card::program::{BYTES_MAX, Program};
 use crate::machine::{Link, Machine};
 use crate::report::{INSTRUCTIONS_PER_TRIANGLE_MAX, SceneReport, verdict};
 use crate::session::{self, ScenePart};
-use crate::simulated::{Design, Running};
+use crate::simulated::{CacheCounts, Design, Running};
 use crate::software_fpga::with_model;
 
 /// Runs of which the median counts.
@@ -158,9 +158,22 @@ pub fn on_simulator(board: &mut Running, design: Design) -> anyhow::Result<Vec<M
     }
     let rate = Measurement { bar: Some(bar), better: Better::Higher, ..Measurement::new(name, best, "frames/s") };
     Ok(match design {
-        Design::Model => vec![first, rate],
+        Design::Model => [vec![first, rate], cache_counts(done.caches)].concat(),
         Design::Rtl => vec![rate],
     })
+}
+
+/// Returns how often caches were maintained and bus masters at work since power-on.
+fn cache_counts(counts: CacheCounts) -> Vec<Measurement> {
+    let count = |name: &str, count: u64, unit| Measurement::new(&format!("de1_soc.{name}"), count as f64, unit);
+    vec![
+        count("cache_l1_by_line", counts.l1_lines, "operations"),
+        count("cache_l1_by_set_and_way", counts.l1_sets, "operations"),
+        count("cache_l2_by_line", counts.l2_lines, "operations"),
+        count("cache_l2_by_way", counts.l2_ways, "operations"),
+        count("dma_lines_read", counts.dma_reads, "lines"),
+        count("dma_lines_written", counts.dma_writes, "lines"),
+    ]
 }
 
 /// Times geometry and software model in this process.

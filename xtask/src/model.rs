@@ -1,12 +1,15 @@
 //! A model from a file as a mesh that `geometry` draws.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow, bail};
 use fixed::types::I4F28;
 use geometry::VertexLook;
 use geometry::look::looks_of_faces;
 use geometry::mesh::{Face, Mesh, Position, Winding};
+use models::Kind;
+use models::compile::{Options, compile};
 
 /// Half the range that a model is scaled into: coordinates of −4…4 of the −8…8 there is.
 const LARGEST_LOG2: i32 = 2;
@@ -28,6 +31,23 @@ pub struct Model {
 /// When it cannot be read or is malformed. The text names the cause already, which a chain of errors would say again.
 pub fn read(path: &Path) -> anyhow::Result<models::Model> {
     models::read(path).map_err(|error| anyhow!("{error}"))
+}
+
+/// Returns a model as a `.mesh` file: itself where it is one, else `model.mesh` in `folder`.
+///
+/// # Errors
+/// When it cannot be read, is malformed or too large, or the file cannot be written.
+pub fn mesh_file(path: &Path, folder: &Path) -> anyhow::Result<PathBuf> {
+    let model = read(path)?;
+    if Kind::of_name(path) == Some(Kind::Mesh) {
+        return Ok(path.into());
+    }
+    model.notes.iter().for_each(|note| println!("note: {note}"));
+    let compiled = compile(&model, &Options::default()).with_context(|| format!("cannot use {}", path.display()))?;
+    let file = folder.join("model.mesh");
+    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    fs::write(&file, compiled.bytes).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(file)
 }
 
 impl Model {

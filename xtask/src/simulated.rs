@@ -5,6 +5,7 @@
 //! answered by a line.
 
 use std::env;
+use std::fmt;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -157,6 +158,36 @@ pub struct Done {
     pub nanoseconds: u64,
     /// Instructions since the last reset.
     pub instructions: u64,
+    /// What was done to caches, and by bus masters.
+    pub caches: CacheCounts,
+}
+
+/// How often caches were maintained, and bus masters at work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub struct CacheCounts {
+    /// L1 operations by address.
+    pub l1_lines: u64,
+    /// L1 operations by set and way.
+    pub l1_sets: u64,
+    /// L2 operations by address.
+    pub l2_lines: u64,
+    /// L2 operations by way.
+    pub l2_ways: u64,
+    /// Lines that bus masters read.
+    pub dma_reads: u64,
+    /// Lines that bus masters wrote.
+    pub dma_writes: u64,
+}
+
+impl fmt::Display for CacheCounts {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { l1_lines, l1_sets, l2_lines, l2_ways, dma_reads, dma_writes } = self;
+        write!(
+            out,
+            "caches maintained: L1 {l1_lines} times by line and {l1_sets} by set and way, L2 {l2_lines} by line and \
+             {l2_ways} by way; bus masters read {dma_reads} lines and wrote {dma_writes}"
+        )
+    }
 }
 
 /// What it answers.

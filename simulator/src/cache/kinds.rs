@@ -1,5 +1,7 @@
 //! What is cached, what is done to caches, and how often it was.
 
+use serde::{Deserialize, Serialize};
+
 /// What an address's translation says, as far as caches go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Attribute {
@@ -21,7 +23,7 @@ pub struct Operation {
 }
 
 /// How often what was done.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// L1 operations by address.
     pub l1_lines: u64,

@@ -2,15 +2,18 @@
 //!
 //! The library takes a fifth of a microsecond for an instruction, most of it around the instruction.
 //! This runs straight on the registers, with instructions taken apart once and translations kept. It
-//! knows what integer code is made of, in ARM state, privileged and with the MMU on. All else is the
+//! knows what integer code is made of, ARM's and Thumb's, privileged and with the MMU on. All else is the
 //! library's: coprocessors, floating point, status registers, exceptions, misaligned accesses,
 //! translations that fail. Nothing is half done when it is handed over, so which of the two runs an
 //! instruction makes no difference; the tests of [`super::rsemu`] have both run the same ones.
 
 mod alu;
 mod decode;
+mod execute;
 mod media;
 mod multiply;
+mod op;
+mod thumb;
 mod transfer;
 mod translation;
 
@@ -19,15 +22,18 @@ use std::collections::HashMap;
 use rsemu::cpu::arm::aprofile::cp::{AccessKind, Mmu};
 use rsemu::cpu::arm::aprofile::{Arm, Mode, Regs, psr};
 
-use self::alu::{C, holds};
-use self::decode::{Op, PC, What};
+use self::alu::holds;
+use self::decode::key;
+use self::op::{ALWAYS, Op};
 use self::translation::{PAGE_BYTES, Translations};
 use crate::bus::{Bus, Refused};
 
-/// Instructions in a page.
-const PAGE_OPS: usize = (PAGE_BYTES / 4) as usize;
-/// Interrupts come in ARM state, from a privileged mode, least byte first.
-const FOREIGN: u32 = psr::T | psr::J | psr::E;
+/// Instructions in a page, at most.
+const PAGE_OPS: usize = (PAGE_BYTES / 2) as usize;
+/// States of the core that only the library knows: Jazelle, most significant byte first.
+const FOREIGN: u32 = psr::J | psr::E;
+/// The conditions of a block in Thumb code, in two pieces: bits 7 to 2, and 1 and 0.
+const BLOCK: u32 = 0x0600_FC00;
 
 /// Why it did not go on to the next instruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,7 +87,7 @@ impl Quick {
             self.translations = Translations::default();
             self.generation = Some(regime.generation);
         }
-        let mut core = Core { registers: &mut registers, bus, mmu, translations: &mut self.translations };
+        let mut core = Core { registers: &mut registers, bus, mmu, translations: &mut self.translations, link: 0 };
         let mut count = 0;
         let mut ended = false;
         while !ended {
@@ -118,12 +124,14 @@ impl Quick {
 }
 
 /// The core while it runs quickly. R15 is the next instruction's address between instructions, and 8
-/// more within one.
+/// more within one, or 4 in Thumb code.
 struct Core<'a> {
     registers: &'a mut Regs,
     bus: &'a Bus,
     mmu: &'a dyn Mmu,
     translations: &'a mut Translations,
+    /// Where a call comes back to, with the instruction set in its lowest bit.
+    link: u32,
 }
 
 impl Core<'_> {
@@ -150,128 +158,62 @@ impl Core<'_> {
         let (page, offset) = (self.pc() & !(PAGE_BYTES - 1), physical & !(PAGE_BYTES - 1));
         let mut pc = self.pc();
         let mut count = 0;
-        while pc & !(PAGE_BYTES - 1) == page && pc & 3 == 0 {
-            let index = (pc % PAGE_BYTES / 4) as usize;
-            let Some(raw) = code.fetch(index) else { return (count, Some(Stop::Library)) };
-            if ops[index].raw != raw {
-                ops[index] = Op::decode(raw);
+        let mut stop = None;
+        while pc & !(PAGE_BYTES - 1) == page {
+            let place = pc % PAGE_BYTES;
+            let thumb = self.registers.cpsr & psr::T != 0;
+            let block = if thumb { self.block_state() } else { 0 };
+            let word = if thumb { code.fetch_thumb(place) } else { code.fetch(place) };
+            let Some(word) = word else {
+                stop = Some(Stop::Library);
+                break;
+            };
+            let key = key(word, thumb, block != 0);
+            let op = &mut ops[(place / 2) as usize];
+            if op.key != key {
+                *op = Op::decode(key);
             }
-            let op = &ops[index];
-            let mut next = pc.wrapping_add(4);
-            if holds(op.condition, self.registers.cpsr) {
-                self.registers.r[15] = pc.wrapping_add(8);
-                bus.set_instruction(offset | (pc % PAGE_BYTES));
+            let op = &*op;
+            let after = pc.wrapping_add(op.bytes.into());
+            let condition = if block == 0 { op.condition } else { (block >> 4).min(ALWAYS) };
+            let mut next = after;
+            if holds(condition, self.registers.cpsr) {
+                self.registers.r[15] = pc.wrapping_add(if thumb { 4 } else { 8 });
+                self.link = after | u32::from(thumb);
+                bus.set_instruction(offset | place);
                 match self.execute(&op.what) {
                     Ok(Flow::Next) => {}
                     Ok(Flow::To(address)) => next = address,
-                    Err(stop) => {
-                        self.registers.r[15] = pc;
-                        return (count, Some(stop));
+                    Err(reason) => {
+                        stop = Some(reason);
+                        break;
                     }
                 }
+            }
+            if block != 0 {
+                self.set_block_state(if block & 7 == 0 { 0 } else { block & 0xE0 | block << 1 & 0x1F });
             }
             pc = next;
             count += 1;
             let now = bus.now() + 1;
             bus.set_now(now);
-            if now >= bus.deadline() || self.registers.cpsr & FOREIGN != 0 {
+            if now >= bus.deadline() {
                 break;
             }
         }
         self.registers.r[15] = pc;
-        // Where it goes on is misaligned or not in ARM state.
-        let foreign = pc & 3 != 0 || self.registers.cpsr & FOREIGN != 0;
-        let stop = (foreign && bus.now() < bus.deadline()).then_some(Stop::Library);
         (count, stop)
     }
 
+    /// Returns the conditions of a block's instructions to come: the next one's in the upper half; 0 outside of a block.
     #[inline(always)]
-    fn execute(&mut self, what: &What) -> Result<Flow, Stop> {
-        let status = self.registers.cpsr;
-        let carried = status & C != 0;
-        match *what {
-            What::Library => return Err(Stop::Library),
-            What::Nothing => {}
-            What::Barrier => self.bus.barrier(),
-            What::Constant { alu, flags, rd, rn, value, carry } => {
-                let a = self.register(rn);
-                return self.data(alu, flags, rd, a, value, carry.unwrap_or(carried));
-            }
-            What::Register { alu, flags, rd, rn, shifted } => {
-                let (b, carry) = shifted.value(&self.registers.r, carried);
-                let a = self.register(rn);
-                return self.data(alu, flags, rd, a, b, carry);
-            }
-            What::ByRegister { alu, flags, rd, rn, rm, rs, shift } => {
-                let (b, carry) = shift.by_register(self.register(rm), self.register(rs), carried);
-                let a = self.register(rn);
-                return self.data(alu, flags, rd, a, b, carry);
-            }
-            What::MoveWide { rd, value } => self.set(rd, value),
-            What::MoveTop { rd, value } => self.set(rd, self.register(rd) & 0xFFFF | value),
-            What::Multiply { multiply, flags, rd, ra, rm, rn } => {
-                let result =
-                    multiply.compute(self.register(rn), self.register(rm), self.register(rd), self.register(ra));
-                if multiply.is_long() {
-                    self.set(ra, result as u32);
-                    self.set(rd, (result >> 32) as u32);
-                } else {
-                    self.set(rd, result as u32);
-                }
-                if flags {
-                    self.registers.cpsr = multiply.flags(status, result);
-                }
-            }
-            What::Media { media, rd, rn, rm } => {
-                let result = media.compute(&self.registers.r, self.register(rd), rn, rm);
-                self.set(rd, result);
-            }
-            What::Branch { link, offset } => {
-                let target = self.pc().wrapping_add(offset as u32);
-                if link {
-                    self.set(14, self.pc().wrapping_sub(4));
-                }
-                return Ok(Flow::To(target));
-            }
-            What::Exchange { link, rm } => {
-                let target = self.register(rm);
-                if link {
-                    self.set(14, self.pc().wrapping_sub(4));
-                }
-                return Ok(self.exchange(target));
-            }
-            What::Transfer { transfer, offset } => return self.transfer(transfer, offset as u32),
-            What::TransferByRegister { transfer, shifted, subtract } => {
-                let (offset, _) = shifted.value(&self.registers.r, carried);
-                return self.transfer(transfer, if subtract { offset.wrapping_neg() } else { offset });
-            }
-            What::Block(block) => return self.block(block),
-        }
-        Ok(Flow::Next)
+    fn block_state(&self) -> u8 {
+        let status = self.registers.cpsr & BLOCK;
+        (status >> 8 & 0xFC | status >> 25) as u8
     }
 
-    #[inline(always)]
-    fn data(&mut self, alu: alu::Alu, flags: bool, rd: u8, a: u32, b: u32, carry: bool) -> Result<Flow, Stop> {
-        let (result, status) = alu.compute(a, b, carry, self.registers.cpsr);
-        if rd == PC && !alu.tests() {
-            // Interworking, and misaligned targets, are the library's.
-            return if result & 3 == 0 { Ok(Flow::To(result)) } else { Err(Stop::Library) };
-        }
-        if flags {
-            self.registers.cpsr = status;
-        }
-        if !alu.tests() {
-            self.set(rd, result);
-        }
-        Ok(Flow::Next)
-    }
-
-    /// Goes on at an address whose lowest bit says whether there is Thumb code (A2.3.1).
-    #[inline(always)]
-    fn exchange(&mut self, target: u32) -> Flow {
-        if target & 1 != 0 {
-            self.registers.cpsr |= psr::T;
-        }
-        Flow::To(target & !1)
+    fn set_block_state(&mut self, state: u8) {
+        let state = u32::from(state);
+        self.registers.cpsr = self.registers.cpsr & !BLOCK | (state & 0xFC) << 8 | (state & 3) << 25;
     }
 }

@@ -80,11 +80,6 @@ impl Gic {
         self.acknowledged
     }
 
-    /// Returns whether an interrupt is enabled.
-    pub fn is_enabled(&self, id: usize) -> bool {
-        bit(&self.enabled, id)
-    }
-
     fn pending_words(&self) -> [u32; WORDS] {
         std::array::from_fn(|word| self.latched[word] | self.level[word] & !self.edge[word])
     }

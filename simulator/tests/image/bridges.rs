@@ -31,7 +31,7 @@ fn a_design_that_goes_is_not_touched_and_one_that_comes_is_drawn_with() {
     let mut buffer = [0; 256];
     let begin = link::encode(link::HOST_MESSAGE, &HostMessage::Begin { scene: 0 }, &mut buffer).unwrap().to_vec();
     board.machine.send(&begin);
-    board.passes(100);
+    board.passes(103);
     board.machine.set_fpga_configured(false);
     board.says(100, "the FPGA's design is gone: bridges closed");
     board.says(100, "FPGA not configured");

@@ -9,7 +9,7 @@ const ACCELERATION_X: usize = 41;
 const LEVEL: u16 = 511;
 const TILTED: u16 = LEVEL + 56;
 /// Frames after which the plate has followed the pad.
-const FOLLOWS: u64 = 40;
+const FOLLOWS: u64 = 20;
 
 fn tilt(board: &Board, reading: u16) {
     board.machine.hardware(|hardware| {

@@ -4,7 +4,7 @@
 use crc::{CRC_32_ISO_HDLC, Crc};
 use firmware::de1_soc::memory_map;
 
-use super::{FPGA_IMAGE_NAME, PROGRAM_NAME};
+use super::{FPGA_IMAGE_NAME, MESH_NAME, PROGRAM_NAME};
 
 /// First byte of where the program may lie: `CODE` of memory.x.
 pub const PROGRAM_START: u32 = 0x0100_0000;
@@ -12,8 +12,10 @@ pub const PROGRAM_START: u32 = 0x0100_0000;
 pub const PROGRAM_END: u32 = PROGRAM_START + (16 << 20);
 /// First byte of where the FPGA's image is loaded.
 pub const FPGA_IMAGE: u32 = memory_map::FPGA_IMAGE;
-/// One more than its last.
-pub const FPGA_IMAGE_END: u32 = memory_map::FPGA_IMAGE_END;
+/// First byte of where a mesh file is loaded, behind it.
+pub const MESH: u32 = 0x0A00_0000;
+/// One more than the last byte of where the program looks for files.
+pub const FILES_END: u32 = memory_map::FPGA_IMAGE_END;
 
 /// Time stamp of everything on the card, in seconds since 1970: 1 January 1980, where FAT's time begins.
 pub const TIME: u32 = 315_532_800;
@@ -54,6 +56,15 @@ else
   echo No {FPGA_IMAGE_NAME} on the card: the FPGA stays as it is
 fi
 
+setenv mesh_file
+if test -e mmc 0:1 {MESH_NAME}; then
+  if load mmc 0:1 {MESH:#010x} {MESH_NAME}; then
+    setenv mesh_file mesh {MESH:#010x} ${{filesize}}
+  else
+    echo {MESH_NAME} cannot be read from the card: Halfspace shows what is built in
+  fi
+fi
+
 # The program opens the bridges to the FPGA itself, after it has looked.
 if load mmc 0:1 {address:#010x} {PROGRAM_NAME}; then
   # What was loaded may still be in the data cache, and what lay there before in the
@@ -62,7 +73,7 @@ if load mmc 0:1 {address:#010x} {PROGRAM_NAME}; then
   dcache off
   icache flush
   icache off
-  go {address:#010x} ${{fpga_image}}
+  go {address:#010x} ${{fpga_image}} ${{mesh_file}}
 else
   echo {PROGRAM_NAME} cannot be read from partition 1 of the card: copy it
 fi
@@ -121,6 +132,7 @@ mod tests {
     fn the_program_is_told_of_an_fpga_image_that_u_boot_could_not_use() {
         // The same words that the firmware's own reader is tested with.
         assert!(text(PROGRAM_START).contains("setenv fpga_image rbf 0x08000000 ${filesize}\n"));
-        assert!(text(PROGRAM_START).contains("  go 0x01000000 ${fpga_image}\n"));
+        assert!(text(PROGRAM_START).contains("  go 0x01000000 ${fpga_image} ${mesh_file}\n"));
+        assert!(text(PROGRAM_START).contains("setenv mesh_file mesh 0x0a000000 ${filesize}\n"));
     }
 }

@@ -1,7 +1,7 @@
 //! Steps that run the firmware in QEMU.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::{Context, ensure};
@@ -86,10 +86,16 @@ pub(super) fn seeds(state: &State) -> anyhow::Result<()> {
 
 /// Starts a board with a mesh file in its memory.
 pub(super) fn start_with_mesh(state: &State, board: Board, folder: &Path, mesh: &[u8]) -> anyhow::Result<Emulated> {
+    let file = write_mesh(folder, mesh)?;
+    state.bootable(board)?.start_with_mesh(folder, Some(file))
+}
+
+/// Writes a mesh file into a folder, which is made if need be.
+pub(super) fn write_mesh(folder: &Path, mesh: &[u8]) -> anyhow::Result<PathBuf> {
     fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let file = folder.join("in-memory.mesh");
     fs::write(&file, mesh).with_context(|| format!("cannot write {}", file.display()))?;
-    state.bootable(board)?.start_with_mesh(folder, Some(file))
+    Ok(file)
 }
 
 fn is_committed(path: &str, picture: &Picture) -> anyhow::Result<()> {

@@ -10,9 +10,10 @@ use models::Model;
 use models::compile::{Options, compile};
 
 use super::State;
-use super::board::start_with_mesh;
+use super::board::{start_with_mesh, write_mesh};
 use crate::cli::Board;
-use crate::machine::{Link, Machine, with_host_and_mesh};
+use crate::machine::{Link, Machine, Simulated, with_host_and_mesh};
+use crate::simulated::{Build, Design, Simulator};
 
 /// Rings and sides of a torus of 70,000 triangles.
 const RINGS: u32 = 250;
@@ -37,6 +38,28 @@ pub(super) fn in_memory(state: &State) -> anyhow::Result<()> {
         let there = on_board(state, board, &broken, "mesh in memory: checksum 0x")?;
         ensure!(there.checksum == built_in.checksum, "{board} does not show the mesh that is built in");
     }
+    Ok(())
+}
+
+/// The DE1-SoC's image draws it in the simulator, and shows what this computer draws.
+pub(super) fn in_the_simulator(state: &State) -> anyhow::Result<()> {
+    let bytes = compile(&torus(), &Options::default())?.bytes;
+    let here = with_host_and_mesh(bytes.clone(), |machine| first_frame(machine))?;
+    let elf = state.elf(Board::De1Soc)?;
+    let folder = state.folder("mesh-simulator");
+    let file = write_mesh(&folder, &bytes)?;
+    let simulator = Simulator::prepare(Design::Model, false, Build::Checked, &state.progress)?.with_mesh(Some(file));
+    let mut machine = Simulated::start(&simulator, &elf, &folder)?;
+    let there = first_frame(&mut machine)?;
+    ensure!(
+        (there.triangles_submitted, there.triangles_drawn) == (here.triangles_submitted, here.triangles_drawn),
+        "the board submits {} triangles and draws {}, this computer {} and {}",
+        there.triangles_submitted,
+        there.triangles_drawn,
+        here.triangles_submitted,
+        here.triangles_drawn
+    );
+    ensure!(Some(machine.screen()?.0) == here.checksum, "the board shows another picture than this computer");
     Ok(())
 }
 

@@ -19,7 +19,7 @@ use super::State;
 use crate::card::layout::card;
 use crate::card::program::Program;
 use crate::card::uboot::UBoot;
-use crate::card::{CardFile, FPGA_IMAGE_NAME, PROGRAM_NAME, SCRIPT_NAME, files, script};
+use crate::card::{CardFile, Extras, FPGA_IMAGE_NAME, PROGRAM_NAME, SCRIPT_NAME, files, script};
 use crate::cli::Board;
 use crate::paths::TemporaryFolder;
 use crate::setup::{Packages, ensure_file, ensure_uboot};
@@ -39,8 +39,8 @@ pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
     let uboot = UBoot::read(&ensure_uboot(&state.progress)?.image)?;
     let program = Program::read(&elf)?;
     let script = for_virt(&script::text(program.address))?;
-    let with = |image: Option<Vec<u8>>, leave_out: &str| {
-        let mut files = files(&program, image);
+    let with = |fpga_image: Option<Vec<u8>>, mesh: Option<Vec<u8>>, leave_out: &str| {
+        let mut files = files(&program, Extras { fpga_image, mesh });
         files.retain(|file| file.name != leave_out);
         for file in files.iter_mut().filter(|file| file.name == SCRIPT_NAME) {
             file.bytes = script::image(&script);
@@ -53,12 +53,12 @@ pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
         fs::write(&disk, card(&files, &uboot)?).context("cannot write the card")?;
         boot(&qemu, &bios, &disk)
     };
-    let size = 300_001;
+    let (size, mesh_size) = (300_001, 70_003);
     let [with_image, without, without_program] = thread::scope(|scope| {
         let jobs = [
-            ("with", with(Some(vec![0x5A; size]), "")),
-            ("without", with(None, "")),
-            ("no-program", with(None, PROGRAM_NAME)),
+            ("with", with(Some(vec![0x5A; size]), Some(vec![0xA5; mesh_size]), "")),
+            ("without", with(None, None, "")),
+            ("no-program", with(None, None, PROGRAM_NAME)),
         ];
         let threads = jobs.map(|(name, files)| scope.spawn(move || run(name, files)));
         threads.map(|thread| thread.join().expect("it does not panic"))
@@ -73,7 +73,7 @@ pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
     // This U-Boot cannot configure an FPGA, so the program is told to.
     let with_image = with_image?;
     says(&with_image, &[&format!("{size} bytes read"), "U-Boot could not configure the FPGA", &read])?;
-    says(&with_image, &[&format!("would go 0x41000000 rbf 0x48000000 {size:x}")])?;
+    says(&with_image, &[&format!("would go 0x41000000 rbf 0x48000000 {size:x} mesh 0x4a000000 {mesh_size:x}")])?;
     says(&without?, &[&format!("No {FPGA_IMAGE_NAME} on the card"), &read, "would go 0x41000000\r"])?;
     says(&without_program?, &[&format!("{PROGRAM_NAME} cannot be read from partition 1 of the card")])
 }
@@ -85,6 +85,7 @@ fn for_virt(script: &str) -> anyhow::Result<String> {
         ("mmc 0:1", "virtio 0:1"),
         ("0x01000000", "0x41000000"),
         ("0x08000000", "0x48000000"),
+        ("0x0a000000", "0x4a000000"),
         ("  go ", "  echo would go "),
     ] {
         ensure!(text.contains(here), "the script has lost its `{here}`");

@@ -8,9 +8,12 @@ use anyhow::Context;
 use crate::card::layout::card;
 use crate::card::program::{BYTES_MAX, Program};
 use crate::card::uboot::UBoot;
-use crate::card::{CardFile, FPGA_IMAGE_NAME, PROGRAM_NAME, SCRIPT_NAME, files, read_fpga_image, script};
+use crate::card::{
+    CardFile, Extras, FPGA_IMAGE_NAME, MESH_NAME, PROGRAM_NAME, SCRIPT_NAME, files, read_fpga_image, read_mesh, script,
+};
 use crate::cli::{Board, ImageArguments};
 use crate::firmware_build::build_firmware;
+use crate::model::mesh_file;
 use crate::paths::{for_display, target_folder};
 use crate::progress::Progress;
 use crate::setup::{ensure_firmware_toolchain, ensure_uboot};
@@ -37,11 +40,12 @@ pub fn run(arguments: &ImageArguments) -> anyhow::Result<()> {
     let fpga_image = arguments.rbf.as_deref().map(read_fpga_image).transpose()?;
     let given = arguments.uboot.as_deref().map(UBoot::read).transpose()?;
     let output = arguments.output.clone().unwrap_or_else(|| target_folder().join("de1-soc"));
+    let mesh = arguments.mesh.as_deref().map(|path| read_mesh(&mesh_file(path, &output)?)).transpose()?;
 
     let toolchain = ensure_firmware_toolchain(&progress)?;
     let elf = build_firmware(Board::De1Soc, &[], &toolchain, &progress)?;
     let program = Program::read(&elf)?;
-    let files = files(&program, fpga_image);
+    let files = files(&program, Extras { fpga_image, mesh });
     write_files(&output, &program, &files)?;
     let (uboot, origin) = match given {
         Some(uboot) => (uboot, "as given".to_string()),
@@ -73,7 +77,7 @@ pub fn write_files(output: &Path, program: &Program, files: &[CardFile]) -> anyh
     let folder = output.join(CARD_FOLDER);
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     // An older run's would go onto a card with this one's files.
-    for name in [PROGRAM_NAME, SCRIPT_NAME, FPGA_IMAGE_NAME] {
+    for name in [PROGRAM_NAME, SCRIPT_NAME, FPGA_IMAGE_NAME, MESH_NAME] {
         remove(&folder.join(name))?;
     }
     remove(&output.join(CARD_IMAGE))?;
@@ -133,13 +137,13 @@ mod tests {
     fn an_older_run_s_fpga_image_and_card_go() {
         let folder = TemporaryFolder::new().expect("folders can be made");
         let program = Program { address: 0x0100_0000, bytes: vec![7; 4] };
-        let with = files(&program, Some(vec![0xFF; 8]));
+        let with = files(&program, Extras { fpga_image: Some(vec![0xFF; 8]), mesh: Some(vec![1; 8]) });
         write_files(folder.path(), &program, &with).expect("it can be written");
         fs::write(folder.path().join(CARD_IMAGE), "old").expect("it can be written");
         fs::write(folder.path().join("card/notes.txt"), "mine").expect("it can be written");
-        write_files(folder.path(), &program, &files(&program, None)).expect("it can be written");
+        write_files(folder.path(), &program, &files(&program, Extras::default())).expect("it can be written");
         let exists = |name: &str| folder.path().join(name).exists();
-        assert!(!exists("card/halfspace.rbf") && !exists(CARD_IMAGE));
+        assert!(!exists("card/halfspace.rbf") && !exists("card/model.mesh") && !exists(CARD_IMAGE));
         assert!(exists("card/notes.txt") && exists("card/boot.scr") && exists("card/halfspace.bin"));
         assert!(exists("halfspace.bin") && exists("boot.scr") && exists("boot.cmd"));
     }

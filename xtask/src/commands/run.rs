@@ -7,8 +7,6 @@ use std::time::Duration;
 
 use anyhow::{Context, bail, ensure};
 use firmware::scene::Scene;
-use models::Kind;
-use models::compile::{Options, compile};
 
 use crate::boot::{self, Bootable, start_with_log};
 use crate::cli::{Board, RunArguments};
@@ -90,19 +88,9 @@ fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
     Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
 }
 
-/// Returns the model that is named as a `.mesh` file, in `folder` unless it is one already.
+/// Returns the model that is named as a `.mesh` file.
 fn mesh_file(arguments: &RunArguments, folder: &Path) -> anyhow::Result<Option<PathBuf>> {
-    let Some(path) = &arguments.model else { return Ok(None) };
-    let model = model::read(path)?;
-    if Kind::of_name(path) == Some(Kind::Mesh) {
-        return Ok(Some(path.clone()));
-    }
-    model.notes.iter().for_each(|note| println!("note: {note}"));
-    let compiled = compile(&model, &Options::default()).with_context(|| format!("cannot use {}", path.display()))?;
-    let file = folder.join("model.mesh");
-    fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    fs::write(&file, compiled.bytes).with_context(|| format!("cannot write {}", file.display()))?;
-    Ok(Some(file))
+    arguments.model.as_deref().map(|path| model::mesh_file(path, folder)).transpose()
 }
 
 /// Returns a session that is repeated and cut to `count` frames.

@@ -72,4 +72,10 @@ impl Machine for Simulated {
     fn nanoseconds_per_instruction(&self) -> f64 {
         NANOSECONDS_PER_INSTRUCTION
     }
+
+    fn end(mut self: Box<Self>) -> anyhow::Result<()> {
+        // No frame more than there were.
+        println!("{}", self.board.frames(0)?.caches);
+        Ok(())
+    }
 }

@@ -1,6 +1,6 @@
 //! Data processing: shifts, sums, logic and flags (ARM DDI 0406C, A8.4, A5.2).
 
-use super::decode::{bit, nibble};
+use rsemu::cpu::arm::aprofile::isa::ShiftType;
 
 /// The flags' places in CPSR.
 pub(super) const N: u32 = 1 << 31;
@@ -53,35 +53,19 @@ pub(super) enum Alu {
     Mov,
     Bic,
     Mvn,
+    Orn,
 }
 
 impl Alu {
-    pub(super) fn of(raw: u32) -> Self {
-        const ALL: [Alu; 16] = [
-            Alu::And,
-            Alu::Eor,
-            Alu::Sub,
-            Alu::Rsb,
-            Alu::Add,
-            Alu::Adc,
-            Alu::Sbc,
-            Alu::Rsc,
-            Alu::Tst,
-            Alu::Teq,
-            Alu::Cmp,
-            Alu::Cmn,
-            Alu::Orr,
-            Alu::Mov,
-            Alu::Bic,
-            Alu::Mvn,
-        ];
-        ALL[nibble(raw, 21) as usize]
-    }
-
     /// Returns whether it sets flags and nothing else.
     #[inline]
     pub(super) fn tests(self) -> bool {
         matches!(self, Self::Tst | Self::Teq | Self::Cmp | Self::Cmn)
+    }
+
+    /// Returns whether it has two operands.
+    pub(super) fn reads_first(self) -> bool {
+        !matches!(self, Self::Mov | Self::Mvn)
     }
 
     /// Returns the result, and CPSR with the flags as they then are; `carry` is the shifter's.
@@ -94,6 +78,7 @@ impl Alu {
             Self::Eor | Self::Teq => logic(a ^ b),
             Self::Orr => logic(a | b),
             Self::Bic => logic(a & !b),
+            Self::Orn => logic(a | !b),
             Self::Mov => logic(b),
             Self::Mvn => logic(!b),
             Self::Sub | Self::Cmp => sum(a, !b, true),
@@ -133,8 +118,13 @@ pub(super) enum Shift {
 }
 
 impl Shift {
-    pub(super) fn of(raw: u32) -> Self {
-        [Self::Left, Self::Right, Self::Arithmetic, Self::Rotate][(raw >> 5 & 3) as usize]
+    pub(super) fn of(shift: ShiftType) -> Self {
+        match shift {
+            ShiftType::Lsl => Self::Left,
+            ShiftType::Lsr => Self::Right,
+            ShiftType::Asr => Self::Arithmetic,
+            ShiftType::Ror => Self::Rotate,
+        }
     }
 
     /// Shifts by a register's lowest byte; returns the carry, too.
@@ -168,15 +158,15 @@ impl Shift {
 /// A register shifted by a constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shifted {
-    pub(super) rm: u8,
+    rm: u8,
     shift: Shift,
     /// As in the instruction: 0 stands for 32, but for shifts left, and for rotations through the carry.
     amount: u8,
 }
 
 impl Shifted {
-    pub(super) fn of(raw: u32) -> Self {
-        Self { rm: nibble(raw, 0), shift: Shift::of(raw), amount: (raw >> 7 & 31) as u8 }
+    pub(super) fn new(rm: u8, shift: ShiftType, amount: u8) -> Self {
+        Self { rm, shift: Shift::of(shift), amount }
     }
 
     /// Returns a register that is not shifted.
@@ -203,9 +193,8 @@ impl Shifted {
     }
 }
 
-/// Returns the constant of data processing, and the carry where its rotation makes one (A5.2.4).
-pub(super) fn rotated(raw: u32) -> (u32, Option<bool>) {
-    let amount = 2 * (raw >> 8 & 15);
-    let value = (raw & 0xFF).rotate_right(amount);
-    (value, (amount != 0).then_some(value & N != 0))
+/// Returns whether a bit is set.
+#[inline]
+fn bit(value: u32, at: u32) -> bool {
+    value >> at & 1 != 0
 }

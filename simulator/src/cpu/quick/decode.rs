@@ -1,272 +1,225 @@
-//! An instruction word taken apart, once for as often as it runs.
+//! From the library's decoded instructions to those that are executed here.
 //!
-//! Section numbers are those of ARM DDI 0406C. What is not here, and all that the architecture calls
-//! unpredictable, is [`What::Library`]'s.
+//! What is not here, and all that the architecture calls unpredictable, is [`What::Library`]'s.
 
-use super::alu::{Alu, Shift, Shifted, rotated};
+use rsemu::cpu::arm::aprofile::isa::{self, DpOp, ExtraOp, Half, HalfMulOp, Insn, Offset, Operand};
+use rsemu::cpu::arm::aprofile::isa_v6::{BarrierKind, BitfieldOp, HintOp};
+use rsemu::cpu::arm::aprofile::media::{ExtendSize, RevOp};
+use rsemu::cpu::arm::aprofile::{Arch, Config, thumb2};
+
+use super::alu::{Alu, Shift, Shifted};
 use super::media::Media;
 use super::multiply::Multiply;
+use super::op::{Block, Index, Op, PC, Size, Transfer, What};
 
-/// The program counter's number.
-pub(super) const PC: u8 = 15;
+pub(super) const ARCHITECTURE: Arch = Config::CORTEX_A9.arch;
+/// In a key: Thumb code, inside of a block with conditions.
+const THUMB: u64 = 1 << 32;
+const IN_BLOCK: u64 = 1 << 33;
 
-/// An instruction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Op {
-    /// The word it was made of.
-    pub(super) raw: u32,
-    /// Its condition, of which 14 is always.
-    pub(super) condition: u8,
-    pub(super) what: What,
-}
-
-/// What an instruction does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum What {
-    /// Something that the library does.
-    Library,
-    /// Nothing: hints and preloads.
-    Nothing,
-    /// A barrier for data (A8.8.43, A8.8.44).
-    Barrier,
-    /// Data processing with a constant, and the carry that its rotation leaves (A5.2.3, A5.2.4).
-    Constant { alu: Alu, flags: bool, rd: u8, rn: u8, value: u32, carry: Option<bool> },
-    /// Data processing with a register, shifted by a constant (A5.2.1).
-    Register { alu: Alu, flags: bool, rd: u8, rn: u8, shifted: Shifted },
-    /// Data processing with a register, shifted by another (A5.2.2).
-    ByRegister { alu: Alu, flags: bool, rd: u8, rn: u8, rm: u8, rs: u8, shift: Shift },
-    /// MOVW (A8.8.102).
-    MoveWide { rd: u8, value: u32 },
-    /// MOVT (A8.8.106).
-    MoveTop { rd: u8, value: u32 },
-    /// Multiplications (A5.2.5, A5.2.7, A5.4.4).
-    Multiply { multiply: Multiply, flags: bool, rd: u8, ra: u8, rm: u8, rn: u8 },
-    /// Extensions, bit fields, reversals (A5.4).
-    Media { media: Media, rd: u8, rn: u8, rm: u8 },
-    /// B, BL: bytes from this instruction's address plus 8 (A8.8.18, A8.8.25).
-    Branch { link: bool, offset: i32 },
-    /// BX, BLX to a register's address (A8.8.26, A8.8.27).
-    Exchange { link: bool, rm: u8 },
-    /// A load or store of one register or a pair, by a constant (A5.3, A5.2.8).
-    Transfer { transfer: Transfer, offset: i32 },
-    /// The same by a register.
-    TransferByRegister { transfer: Transfer, shifted: Shifted, subtract: bool },
-    /// LDM, STM (A5.5).
-    Block(Block),
-}
-
-/// How much a load or store moves, and how it is extended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Size {
-    Word,
-    Byte,
-    Half,
-    SignedByte,
-    SignedHalf,
-    Pair,
-}
-
-/// When the offset counts, and whether the base takes it on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Index {
-    Offset,
-    Pre,
-    Post,
-}
-
-/// A load or store.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Transfer {
-    pub(super) load: bool,
-    pub(super) size: Size,
-    pub(super) index: Index,
-    pub(super) rd: u8,
-    pub(super) rn: u8,
-}
-
-/// A load or store of several registers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Block {
-    pub(super) load: bool,
-    pub(super) before: bool,
-    pub(super) up: bool,
-    pub(super) writeback: bool,
-    pub(super) rn: u8,
-    pub(super) list: u16,
-}
-
-/// Returns the four bits of a word from bit `at` on: a register's number, mostly.
-pub(super) const fn nibble(raw: u32, at: u32) -> u8 {
-    (raw >> at & 15) as u8
-}
-
-pub(super) const fn bit(raw: u32, at: u32) -> bool {
-    raw >> at & 1 != 0
+/// Returns what tells one instruction from all others.
+#[inline(always)]
+pub(super) fn key(word: u32, thumb: bool, in_block: bool) -> u64 {
+    u64::from(word) | u64::from(thumb) << 32 | u64::from(in_block) << 33
 }
 
 impl Op {
-    pub(super) fn decode(raw: u32) -> Self {
-        let condition = nibble(raw, 28);
-        if condition == 15 {
-            return Self { raw, condition: 14, what: unconditional(raw) };
+    /// Returns the instruction of a key. A word of Thumb code has its first half on top; a short instruction is
+    /// its lower half.
+    pub(super) fn decode(key: u64) -> Self {
+        let word = key as u32;
+        if key & THUMB == 0 {
+            let decoded = isa::decode_for(&ARCHITECTURE, word);
+            return Self { key, condition: decoded.cond.0, bytes: 4, what: what(decoded.insn, false) };
         }
-        let what = match raw >> 25 & 7 {
-            0b000 if bit(raw, 7) && bit(raw, 4) && raw >> 5 & 3 == 0 => Multiply::decode(raw),
-            0b000 if bit(raw, 7) && bit(raw, 4) => extra_transfer(raw),
-            0b000 if raw >> 23 & 3 == 0b10 && !bit(raw, 20) => miscellaneous(raw),
-            0b000 => by_register(raw),
-            0b001 => constant(raw),
-            0b010 => transfer(raw),
-            0b011 if bit(raw, 4) => Media::decode(raw),
-            0b011 => transfer(raw),
-            0b100 => block(raw),
-            0b101 => What::Branch { link: bit(raw, 24), offset: (raw << 8) as i32 >> 6 },
-            _ => What::Library,
-        };
-        Self { raw, condition, what }
+        if word >> 16 != 0 {
+            let decoded = thumb2::decode_for(&ARCHITECTURE, (word >> 16) as u16, word as u16);
+            return Self { key, condition: decoded.cond.0, bytes: 4, what: what(decoded.insn, true) };
+        }
+        let (condition, what) = super::thumb::short(word as u16, key & IN_BLOCK != 0);
+        Self { key, condition, bytes: 2, what }
     }
 }
 
-fn unconditional(raw: u32) -> What {
-    // PLD by a constant, by a register; DSB and DMB.
-    if raw & 0xFF70_F000 == 0xF550_F000 || raw & 0xFF70_F010 == 0xF750_F000 {
-        What::Nothing
-    } else if raw & 0xFFFF_FFE0 == 0xF57F_F040 {
-        What::Barrier
-    } else {
-        What::Library
+/// Returns what an instruction does, of ARM or Thumb code.
+pub(super) fn what(insn: Insn, thumb: bool) -> What {
+    match insn {
+        Insn::DataProc { op, s, rd, rn, operand } => data(alu(op), s, rd, rn, operand, thumb),
+        Insn::MovWide { rd: PC, .. } => What::Library,
+        Insn::MovWide { top: true, rd, imm } => What::MoveTop { rd, value: u32::from(imm) << 16 },
+        Insn::MovWide { top: false, rd, imm } => {
+            What::Constant { alu: Alu::Mov, flags: false, rd, rn: 0, value: imm.into(), carry: None }
+        }
+        Insn::Branch { link, offset } => What::Branch { link, offset },
+        Insn::BlxImm { offset } => What::CallOther { offset },
+        Insn::Bx { rm } if rm != PC => What::Exchange { link: false, rm },
+        Insn::BlxReg { rm } if rm != PC => What::Exchange { link: true, rm },
+        Insn::TableBranch { half, rn, rm } if rm != PC => What::TableBranch { half, rn, rm },
+        Insn::Pld { .. } | Insn::Hint { op: HintOp::Nop | HintOp::Yield } => What::Nothing,
+        Insn::Barrier { kind: BarrierKind::Dmb | BarrierKind::Dsb, .. } => What::Barrier,
+        Insn::LoadStore { load, byte, up, index, rn, rd, offset } => {
+            transfer(load, if byte { Size::Byte } else { Size::Word }, up, index, [rn, rd], offset)
+        }
+        Insn::LoadStoreExtra { op, up, index, rn, rd, offset } => extra(op, up, index, [rn, rd], offset),
+        Insn::LoadStoreDual { load, rt, rt2, rn, up, index, imm } => pair(load, up, index, [rn, rt, rt2], imm),
+        Insn::BlockTransfer { load, before, up, user: false, writeback, rn, list } => {
+            let block = Block { load, before, up, writeback, rn, list };
+            if block.is_sound() { What::Block(block) } else { What::Library }
+        }
+        _ => multiplication(insn).unwrap_or_else(|| media(insn)),
     }
 }
 
-/// Whether data processing may do what it asks for here: flags come back with the program counter from an exception.
-fn is_plain(alu: Alu, flags: bool, rd: u8) -> bool {
-    rd != PC || !flags && !alu.tests()
+fn alu(op: DpOp) -> Alu {
+    match op {
+        DpOp::And => Alu::And,
+        DpOp::Eor => Alu::Eor,
+        DpOp::Sub => Alu::Sub,
+        DpOp::Rsb => Alu::Rsb,
+        DpOp::Add => Alu::Add,
+        DpOp::Adc => Alu::Adc,
+        DpOp::Sbc => Alu::Sbc,
+        DpOp::Rsc => Alu::Rsc,
+        DpOp::Tst => Alu::Tst,
+        DpOp::Teq => Alu::Teq,
+        DpOp::Cmp => Alu::Cmp,
+        DpOp::Cmn => Alu::Cmn,
+        DpOp::Orr => Alu::Orr,
+        DpOp::Mov => Alu::Mov,
+        DpOp::Bic => Alu::Bic,
+        DpOp::Mvn => Alu::Mvn,
+        DpOp::Orn => Alu::Orn,
+    }
 }
 
-fn by_register(raw: u32) -> What {
-    let (alu, flags) = (Alu::of(raw), bit(raw, 20));
-    let (rn, rd, rm) = (nibble(raw, 16), nibble(raw, 12), nibble(raw, 0));
-    if !is_plain(alu, flags, rd) {
+fn data(alu: Alu, flags: bool, rd: u8, rn: u8, operand: Operand, thumb: bool) -> What {
+    let rd = if alu.tests() { 0 } else { rd };
+    let rn = if alu.reads_first() { rn } else { 0 };
+    // A return from an exception, and in Thumb code what is unpredictable.
+    if rd == PC && (flags || thumb) {
         return What::Library;
     }
-    if !bit(raw, 4) {
-        return What::Register { alu, flags, rd, rn, shifted: Shifted::of(raw) };
-    }
-    let rs = nibble(raw, 8);
-    if [rd, rn, rm, rs].contains(&PC) {
-        return What::Library;
-    }
-    What::ByRegister { alu, flags, rd, rn, rm, rs, shift: Shift::of(raw) }
-}
-
-fn constant(raw: u32) -> What {
-    let (rn, rd) = (nibble(raw, 16), nibble(raw, 12));
-    if raw >> 23 & 3 == 0b10 && !bit(raw, 20) {
-        let value = u32::from(rn) << 12 | raw & 0xFFF;
-        return match raw >> 20 & 0x1F {
-            _ if raw & 0x0FFF_FFFE == 0x0320_F000 => What::Nothing,
-            0b10000 if rd != PC => What::MoveWide { rd, value },
-            0b10100 if rd != PC => What::MoveTop { rd, value: value << 16 },
-            _ => What::Library,
-        };
-    }
-    let (alu, flags) = (Alu::of(raw), bit(raw, 20));
-    if !is_plain(alu, flags, rd) {
-        return What::Library;
-    }
-    let (value, carry) = rotated(raw);
-    What::Constant { alu, flags, rd, rn, value, carry }
-}
-
-fn miscellaneous(raw: u32) -> What {
-    let rm = nibble(raw, 0);
-    match (raw >> 4 & 15, raw >> 21 & 3) {
-        (0b0001, 0b01) if raw & 0x000F_FF00 == 0x000F_FF00 && rm != PC => What::Exchange { link: false, rm },
-        (0b0011, 0b01) if raw & 0x000F_FF00 == 0x000F_FF00 && rm != PC => What::Exchange { link: true, rm },
-        (0b0001, 0b11) => Media::count_zeros(raw),
-        (8 | 10 | 12 | 14, _) => Multiply::decode_halves(raw),
+    let what = match operand {
+        Operand::Imm { imm8, rotate } => {
+            let value = u32::from(imm8).rotate_right(2 * u32::from(rotate));
+            What::Constant { alu, flags, rd, rn, value, carry: (rotate != 0).then_some(value >> 31 != 0) }
+        }
+        Operand::Const { value, carry } => What::Constant { alu, flags, rd, rn, value, carry },
+        Operand::Reg { rm: PC, .. } if thumb => return What::Library,
+        Operand::Reg { rm, shift: isa::Shift::Imm { ty, amount } } => {
+            What::Register { alu, flags, rd, rn, shifted: Shifted::new(rm, ty, amount) }
+        }
+        Operand::Reg { rm, shift: isa::Shift::Reg { ty, rs } } => {
+            if [rd, rn, rm, rs].contains(&PC) {
+                return What::Library;
+            }
+            What::ByRegister { alu, flags, rd, rn, rm, rs, shift: Shift::of(ty) }
+        }
+    };
+    match what {
+        _ if rn != PC || !thumb => what,
+        What::Constant { alu: Alu::Add, value, .. } if !flags => What::Address { rd, offset: value as i32 },
+        What::Constant { alu: Alu::Sub, value, .. } if !flags => {
+            What::Address { rd, offset: (value as i32).wrapping_neg() }
+        }
         _ => What::Library,
     }
 }
 
-/// Returns when the offset counts; `None` for accesses without privilege.
-fn index(raw: u32) -> Option<Index> {
-    match (bit(raw, 24), bit(raw, 21)) {
-        (true, false) => Some(Index::Offset),
-        (true, true) => Some(Index::Pre),
-        (false, false) => Some(Index::Post),
-        (false, true) => None,
-    }
-}
-
-/// Returns whether a transfer is predictable.
-fn is_sound(transfer: Transfer) -> bool {
-    let Transfer { load, size, index, rd, rn } = transfer;
-    let writeback = index != Index::Offset;
-    let second = if size == Size::Pair { rd + 1 } else { rd };
-    let pc_is_loaded = load && size == Size::Word;
-    (size != Size::Pair || rd & 1 == 0)
-        && (rd != PC && second != PC || pc_is_loaded)
-        && !(writeback && (rn == PC || rn == rd || rn == second))
-}
-
-fn transfer(raw: u32) -> What {
-    let Some(index) = index(raw) else { return What::Library };
-    let size = if bit(raw, 22) { Size::Byte } else { Size::Word };
-    let transfer = Transfer { load: bit(raw, 20), size, index, rd: nibble(raw, 12), rn: nibble(raw, 16) };
-    if !is_sound(transfer) {
-        return What::Library;
-    }
-    if !bit(raw, 25) {
-        let offset = (raw & 0xFFF) as i32;
-        return What::Transfer { transfer, offset: if bit(raw, 23) { offset } else { -offset } };
-    }
-    let shifted = Shifted::of(raw);
-    if shifted.rm == PC || index != Index::Offset && shifted.rm == transfer.rn {
-        return What::Library;
-    }
-    What::TransferByRegister { transfer, shifted, subtract: !bit(raw, 23) }
-}
-
-fn extra_transfer(raw: u32) -> What {
-    let Some(index) = index(raw) else { return What::Library };
-    let (load, size) = match (raw >> 5 & 3, bit(raw, 20)) {
-        (0b01, load) => (load, Size::Half),
-        (0b10, true) => (true, Size::SignedByte),
-        (0b11, true) => (true, Size::SignedHalf),
-        (0b10, false) => (true, Size::Pair),
-        _ => (false, Size::Pair),
+fn multiplication(insn: Insn) -> Option<What> {
+    let (multiply, flags, [rd, ra, rm, rn]) = match insn {
+        Insn::Mul { accumulate: true, s, rd, rn, rm, rs } => (Multiply::Accumulate, s, [rd, rn, rs, rm]),
+        Insn::Mul { accumulate: false, s, rd, rm, rs, .. } => (Multiply::Low, s, [rd, 0, rs, rm]),
+        Insn::MulLong { signed, accumulate, s, rdhi, rdlo, rm, rs } => {
+            (Multiply::Long { signed, accumulate }, s, [rdhi, rdlo, rs, rm])
+        }
+        Insn::Umaal { rdhi, rdlo, rn, rm } => (Multiply::LongTwice, false, [rdhi, rdlo, rm, rn]),
+        Insn::Mls { rd, rn, rm, ra } => (Multiply::Subtract, false, [rd, ra, rm, rn]),
+        Insn::HalfMul { op: HalfMulOp::Smul, rd, rm, rs, x, y, .. } => {
+            (Multiply::Halves(x == Half::Top, y == Half::Top), false, [rd, 0, rs, rm])
+        }
+        Insn::MulHigh { sub: false, round, rd, rn, rm, ra } => {
+            (Multiply::High { round, accumulate: ra.is_some() }, false, [rd, ra.unwrap_or(0), rm, rn])
+        }
+        _ => return None,
     };
-    let transfer = Transfer { load, size, index, rd: nibble(raw, 12), rn: nibble(raw, 16) };
-    if !is_sound(transfer) {
-        return What::Library;
-    }
-    if bit(raw, 22) {
-        let offset = (raw >> 4 & 0xF0 | raw & 15) as i32;
-        return What::Transfer { transfer, offset: if bit(raw, 23) { offset } else { -offset } };
-    }
-    let rm = nibble(raw, 0);
-    // A pair's second load must not change what the first took its address from.
-    let clash = rm == PC || index != Index::Offset && rm == transfer.rn || size == Size::Pair && rm & !1 == transfer.rd;
-    if clash || raw & 0xF00 != 0 {
-        return What::Library;
-    }
-    What::TransferByRegister { transfer, shifted: Shifted::plain(rm), subtract: !bit(raw, 23) }
+    let unsound = [rd, ra, rm, rn].contains(&PC) || multiply.is_long() && rd == ra;
+    Some(if unsound { What::Library } else { What::Multiply { multiply, flags, rd, ra, rm, rn } })
 }
 
-fn block(raw: u32) -> What {
-    let block = Block {
-        load: bit(raw, 20),
-        before: bit(raw, 24),
-        up: bit(raw, 23),
-        writeback: bit(raw, 21),
-        rn: nibble(raw, 16),
-        list: raw as u16,
+fn media(insn: Insn) -> What {
+    let (media, rd, rn, rm) = match insn {
+        Insn::Clz { rd, rm } => (Media::CountZeros, rd, None, rm),
+        Insn::Reverse { op: RevOp::Rev, rd, rm } => (Media::ReverseBytes, rd, None, rm),
+        Insn::Reverse { op: RevOp::Rev16, rd, rm } => (Media::ReverseHalves, rd, None, rm),
+        Insn::Reverse { op: RevOp::Rbit, rd, rm } => (Media::ReverseBits, rd, None, rm),
+        Insn::Extend { signed, size: size @ (ExtendSize::Byte | ExtendSize::Half), rd, rn, rm, rotate } => {
+            (Media::Extend { signed, half: size == ExtendSize::Half, rotate: 8 * rotate }, rd, rn, rm)
+        }
+        Insn::Pack { tb, rd, rn, rm, amount } if rn != PC => (Media::Pack { top: tb, amount }, rd, Some(rn), rm),
+        Insn::Bitfield { op: BitfieldOp::Bfc, rd, lsb, width, .. } if rd != PC => {
+            return What::Media { media: Media::Insert { low: lsb, width }, rd, rn: PC, rm: PC };
+        }
+        Insn::Bitfield { op: BitfieldOp::Bfi, rd, rn, lsb, width } => (Media::Insert { low: lsb, width }, rd, None, rn),
+        Insn::Bitfield { op: op @ (BitfieldOp::Ubfx | BitfieldOp::Sbfx), rd, rn, lsb, width } => {
+            (Media::Field { signed: op == BitfieldOp::Sbfx, low: lsb, width }, rd, None, rn)
+        }
+        _ => return What::Library,
     };
-    let writes_listed = block.writeback && block.list >> block.rn & 1 != 0;
-    let stores_pc = !block.load && block.list >> PC & 1 != 0;
-    if bit(raw, 22) || block.list == 0 || block.rn == PC || writes_listed || stores_pc {
+    if rd == PC || rm == PC {
         return What::Library;
     }
-    What::Block(block)
+    What::Media { media, rd, rn: rn.unwrap_or(PC), rm }
+}
+
+fn index(index: isa::Index) -> Option<Index> {
+    match index {
+        isa::Index::Pre { writeback: false } => Some(Index::Offset),
+        isa::Index::Pre { writeback: true } => Some(Index::Pre),
+        isa::Index::Post { unprivileged: false } => Some(Index::Post),
+        _ => None,
+    }
+}
+
+fn signed(offset: u16, up: bool) -> i32 {
+    if up { offset.into() } else { -i32::from(offset) }
+}
+
+fn transfer(load: bool, size: Size, up: bool, when: isa::Index, [rn, rd]: [u8; 2], offset: Offset) -> What {
+    let Some(index) = index(when) else { return What::Library };
+    let transfer = Transfer { load, size, index, rd, rn };
+    if !transfer.is_sound() {
+        return What::Library;
+    }
+    match offset {
+        Offset::Imm(offset) => What::Transfer { transfer, offset: signed(offset, up) },
+        Offset::Reg { rm, shift: isa::Shift::Imm { ty, amount } }
+            if rm != PC && (index == Index::Offset || rm != rn) =>
+        {
+            What::TransferByRegister { transfer, shifted: Shifted::new(rm, ty, amount), subtract: !up }
+        }
+        Offset::Reg { .. } => What::Library,
+    }
+}
+
+fn extra(op: ExtraOp, up: bool, when: isa::Index, [rn, rd]: [u8; 2], offset: Offset) -> What {
+    let (load, size) = match (op, offset) {
+        (ExtraOp::Strh, _) => (false, Size::Half),
+        (ExtraOp::Ldrh, _) => (true, Size::Half),
+        (ExtraOp::Ldrsb, _) => (true, Size::SignedByte),
+        (ExtraOp::Ldrsh, _) => (true, Size::SignedHalf),
+        (ExtraOp::Ldrd | ExtraOp::Strd, Offset::Imm(offset)) if rd & 1 == 0 => {
+            return pair(op == ExtraOp::Ldrd, up, when, [rn, rd, rd + 1], offset);
+        }
+        _ => return What::Library,
+    };
+    transfer(load, size, up, when, [rn, rd], offset)
+}
+
+fn pair(load: bool, up: bool, when: isa::Index, [rn, first, second]: [u8; 3], offset: u16) -> What {
+    let Some(index) = index(when) else { return What::Library };
+    let of = |rd| Transfer { load, size: Size::Word, index, rd, rn };
+    let sound =
+        of(first).is_sound() && of(second).is_sound() && first != PC && second != PC && !(load && first == second);
+    if sound { What::Pair { transfer: of(first), second, offset: signed(offset, up) } } else { What::Library }
 }

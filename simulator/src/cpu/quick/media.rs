@@ -1,7 +1,6 @@
 //! Extensions, bit fields and reversals (ARM DDI 0406C, A5.4).
 
-use super::decode::{PC, What, bit, nibble};
-use super::multiply::Multiply;
+use super::op::PC;
 
 /// An operation on one register's bits, most of them with another's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,49 +34,6 @@ pub(super) enum Media {
 }
 
 impl Media {
-    pub(super) fn count_zeros(raw: u32) -> What {
-        if raw & 0x000F_0F00 != 0x000F_0F00 {
-            return What::Library;
-        }
-        Self::CountZeros.of(nibble(raw, 12), PC, nibble(raw, 0))
-    }
-
-    pub(super) fn decode(raw: u32) -> What {
-        let (rd, rn, rm) = (nibble(raw, 12), nibble(raw, 16), nibble(raw, 0));
-        let low = (raw >> 7 & 31) as u8;
-        let high = (raw >> 16 & 31) as u8;
-        match (raw >> 20 & 31, raw >> 5 & 7) {
-            // Extensions: bits 9 and 8 are zero.
-            (op @ (0b01010 | 0b01011 | 0b01110 | 0b01111), 0b011) if raw & 0x300 == 0 => {
-                let rotate = 8 * (raw >> 10 & 3) as u8;
-                Self::Extend { signed: op & 0b100 == 0, half: op & 1 != 0, rotate }.of(rd, rn, rm)
-            }
-            (0b01011, 0b001) if raw & 0x000F_0F00 == 0x000F_0F00 => Self::ReverseBytes.of(rd, PC, rm),
-            (0b01011, 0b101) if raw & 0x000F_0F00 == 0x000F_0F00 => Self::ReverseHalves.of(rd, PC, rm),
-            (0b01111, 0b001) if raw & 0x000F_0F00 == 0x000F_0F00 => Self::ReverseBits.of(rd, PC, rm),
-            (0b01000, shift) if shift & 1 == 0 && rn != PC => {
-                Self::Pack { top: bit(raw, 6), amount: low }.of(rd, rn, rm)
-            }
-            (0b10101, _) => Multiply::decode_high(raw),
-            (op @ (0b11010 | 0b11011 | 0b11110 | 0b11111), 0b010 | 0b110) if low + high < 32 => {
-                Self::Field { signed: op & 0b100 == 0, low, width: high + 1 }.of(rd, PC, rm)
-            }
-            // The register of a field that is inserted is in the lowest bits; what it goes into is in `rd`.
-            (0b11100 | 0b11101, 0b000 | 0b100) if high >= low => {
-                let what = Self::Insert { low, width: high - low + 1 };
-                if rd == PC { What::Library } else { What::Media { media: what, rd, rn: PC, rm } }
-            }
-            _ => What::Library,
-        }
-    }
-
-    fn of(self, rd: u8, rn: u8, rm: u8) -> What {
-        if rd == PC || rm == PC {
-            return What::Library;
-        }
-        What::Media { media: self, rd, rn, rm }
-    }
-
     /// Returns the result; `rd` is what stands in the register that takes it, `rn` and `rm` are registers' numbers.
     #[inline(always)]
     pub(super) fn compute(self, registers: &[u32; 16], rd: u32, rn: u8, rm: u8) -> u32 {

@@ -1,7 +1,6 @@
 //! Multiplications (ARM DDI 0406C, A5.2.5, A5.2.7, A5.4.4).
 
 use super::alu::{N, Z, with_sign};
-use super::decode::{PC, What, bit, nibble};
 
 /// A multiplication. Of the long ones `ra` is the low word, `rd` the high one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,10 +8,11 @@ pub(super) enum Multiply {
     Low,
     Accumulate,
     Subtract,
-    LongUnsigned,
-    LongUnsignedAccumulate,
-    LongSigned,
-    LongSignedAccumulate,
+    /// With both words as one number added.
+    Long {
+        signed: bool,
+        accumulate: bool,
+    },
     /// With both words added as they are.
     LongTwice,
     /// SMULxy: halves, the top one of `rn`, of `rm`.
@@ -25,54 +25,9 @@ pub(super) enum Multiply {
 }
 
 impl Multiply {
-    pub(super) fn decode(raw: u32) -> What {
-        let multiply = match nibble(raw, 20) >> 1 {
-            _ if bit(raw, 24) => return What::Library,
-            0b000 => Self::Low,
-            0b001 => Self::Accumulate,
-            0b010 if !bit(raw, 20) => Self::LongTwice,
-            0b011 if !bit(raw, 20) => Self::Subtract,
-            0b100 => Self::LongUnsigned,
-            0b101 => Self::LongUnsignedAccumulate,
-            0b110 => Self::LongSigned,
-            0b111 => Self::LongSignedAccumulate,
-            _ => return What::Library,
-        };
-        multiply.of(raw, bit(raw, 20))
-    }
-
-    pub(super) fn decode_halves(raw: u32) -> What {
-        if raw >> 21 & 3 != 0b11 || nibble(raw, 12) != 0 {
-            return What::Library;
-        }
-        Self::Halves(bit(raw, 5), bit(raw, 6)).of(raw, false)
-    }
-
-    pub(super) fn decode_high(raw: u32) -> What {
-        if raw & 0xD0 != 0x10 {
-            return What::Library;
-        }
-        let accumulate = nibble(raw, 12) != PC;
-        let What::Multiply { multiply, flags, rd, ra, rm, rn } =
-            (Self::High { round: bit(raw, 5), accumulate }).of(raw & !0xF000, false)
-        else {
-            return What::Library;
-        };
-        What::Multiply { multiply, flags, rd, ra: if accumulate { nibble(raw, 12) } else { ra }, rm, rn }
-    }
-
-    fn of(self, raw: u32, flags: bool) -> What {
-        let (rd, ra, rm, rn) = (nibble(raw, 16), nibble(raw, 12), nibble(raw, 8), nibble(raw, 0));
-        if [rd, ra, rm, rn].contains(&PC) || self.is_long() && rd == ra {
-            return What::Library;
-        }
-        What::Multiply { multiply: self, flags, rd, ra, rm, rn }
-    }
-
     #[inline]
     pub(super) fn is_long(self) -> bool {
-        use Multiply::*;
-        matches!(self, LongUnsigned | LongUnsignedAccumulate | LongSigned | LongSignedAccumulate | LongTwice)
+        matches!(self, Self::Long { .. } | Self::LongTwice)
     }
 
     /// Returns the result, of which short ones are the low word; `high` and `low` are what is added.
@@ -86,10 +41,10 @@ impl Multiply {
             Self::Low => rn.wrapping_mul(rm).into(),
             Self::Accumulate => low.wrapping_add(rn.wrapping_mul(rm)).into(),
             Self::Subtract => low.wrapping_sub(rn.wrapping_mul(rm)).into(),
-            Self::LongUnsigned => unsigned(),
-            Self::LongUnsignedAccumulate => whole.wrapping_add(unsigned()),
-            Self::LongSigned => signed(),
-            Self::LongSignedAccumulate => whole.wrapping_add(signed()),
+            Self::Long { signed: is_signed, accumulate } => {
+                let product = if is_signed { signed() } else { unsigned() };
+                product.wrapping_add(if accumulate { whole } else { 0 })
+            }
             Self::LongTwice => unsigned() + u64::from(high) + u64::from(low),
             Self::Halves(of_rn, of_rm) => u64::from(half(rn, of_rn).wrapping_mul(half(rm, of_rm)) as u32),
             Self::High { round, accumulate } => {

@@ -2,7 +2,7 @@
 
 use rsemu::cpu::arm::aprofile::cp::AccessKind;
 
-use super::decode::{Block, Index, PC, Size, Transfer};
+use super::op::{Block, Index, PC, Size, Transfer};
 use super::translation::PAGE_BYTES;
 use super::{Core, Flow, Stop};
 
@@ -10,23 +10,19 @@ impl Core<'_> {
     #[inline(always)]
     pub(super) fn transfer(&mut self, transfer: Transfer, offset: u32) -> Result<Flow, Stop> {
         let Transfer { load, size, index, rd, rn } = transfer;
-        let base = self.register(rn);
+        let base = self.base(rn);
         let moved = base.wrapping_add(offset);
         let address = if index == Index::Post { base } else { moved };
         let bytes = match size {
             Size::Word => 4,
             Size::Byte | Size::SignedByte => 1,
             Size::Half | Size::SignedHalf => 2,
-            Size::Pair => 8,
         };
         if address & (bytes - 1) != 0 {
             return Err(Stop::Library);
         }
         let kind = if load { AccessKind::Read } else { AccessKind::Write };
         let physical = self.physical(address, kind)?;
-        if size == Size::Pair {
-            return self.pair(transfer, physical, moved);
-        }
         if !load {
             self.bus.write(physical, bytes, self.register(rd) & u32::MAX >> (32 - 8 * bytes))?;
             self.write_back(index, rn, moved);
@@ -46,19 +42,45 @@ impl Core<'_> {
         Ok(Flow::Next)
     }
 
-    fn pair(&mut self, transfer: Transfer, physical: u32, moved: u32) -> Result<Flow, Stop> {
+    pub(super) fn pair(&mut self, transfer: Transfer, second: u8, offset: u32) -> Result<Flow, Stop> {
         let Transfer { load, index, rd, rn, .. } = transfer;
+        let base = self.base(rn);
+        let moved = base.wrapping_add(offset);
+        let address = if index == Index::Post { base } else { moved };
+        if address & 3 != 0 {
+            return Err(Stop::Library);
+        }
+        let kind = if load { AccessKind::Read } else { AccessKind::Write };
+        let places = [self.physical(address, kind)?, self.physical(address.wrapping_add(4), kind)?];
         if load {
-            let values = [self.bus.read(physical, 4)?, self.bus.read(physical + 4, 4)?];
+            let values = [self.bus.read(places[0], 4)?, self.bus.read(places[1], 4)?];
             self.write_back(index, rn, moved);
             self.set(rd, values[0]);
-            self.set(rd + 1, values[1]);
+            self.set(second, values[1]);
         } else {
-            self.bus.write(physical, 4, self.register(rd))?;
-            self.bus.write(physical + 4, 4, self.register(rd + 1))?;
+            self.bus.write(places[0], 4, self.register(rd))?;
+            self.bus.write(places[1], 4, self.register(second))?;
             self.write_back(index, rn, moved);
         }
         Ok(Flow::Next)
+    }
+
+    /// Goes where a table of halves or bytes says, in steps of two from the program counter.
+    pub(super) fn table_branch(&mut self, half: bool, rn: u8, rm: u8) -> Result<Flow, Stop> {
+        let (bytes, shift) = if half { (2, 1) } else { (1, 0) };
+        let address = self.register(rn).wrapping_add(self.register(rm) << shift);
+        if address & (bytes - 1) != 0 {
+            return Err(Stop::Library);
+        }
+        let physical = self.physical(address, AccessKind::Read)?;
+        let steps = self.bus.read(physical, bytes)?;
+        Ok(Flow::To(self.pc().wrapping_add(2 * steps)))
+    }
+
+    /// Returns the register that an address is made of; of the program counter it is the word's.
+    #[inline(always)]
+    fn base(&self, rn: u8) -> u32 {
+        self.register(rn) & if rn == PC { !3 } else { u32::MAX }
     }
 
     #[inline(always)]

@@ -1,6 +1,5 @@
 //! The same instructions by the library and quickly: registers, flags, memory and time are the same after.
 
-use std::collections::BTreeMap;
 use std::sync::atomic::Ordering::Relaxed;
 
 use rsemu::cpu::arm::aprofile::Regs;
@@ -55,6 +54,51 @@ const KINDS: &[Kind] = &[
     ("LDM, STM of few", 0x0E00_F0F0, 0x0800_0000),
     ("B, BL", 0x0E00_0000, 0x0A00_0000),
 ];
+/// Kinds of Thumb code. What has both halves of the word in its mask is long, with its first half on top.
+const THUMB: &[Kind] = &[
+    ("shifts, sums", 0xE000, 0x0000),
+    ("sums of three", 0xFC00, 0x1800),
+    ("constants", 0xE000, 0x2000),
+    ("two registers", 0xFC00, 0x4000),
+    ("high registers", 0xFC00, 0x4400),
+    ("LDR of a constant", 0xF800, 0x4800),
+    ("LDR, STR by register", 0xF000, 0x5000),
+    ("LDR, STR by constant", 0xE000, 0x6000),
+    ("LDRH, STRH by constant", 0xF000, 0x8000),
+    ("LDR, STR on the stack", 0xF000, 0x9000),
+    ("addresses", 0xF000, 0xA000),
+    ("stack and extensions", 0xFF00, 0xB000),
+    ("extensions", 0xFF00, 0xB200),
+    ("comparing branches", 0xF500, 0xB100),
+    ("LDM, PUSH", 0xFE00, 0xB400),
+    ("LDM, POP", 0xFE00, 0xBC00),
+    ("LDM, STM", 0xF000, 0xC000),
+    ("reversals", 0xFF00, 0xBA00),
+    ("IT", 0xFF00, 0xBF00),
+    ("hints", 0xFFEF, 0xBF00),
+    ("branches by condition", 0xF000, 0xD000),
+    ("branches", 0xF800, 0xE000),
+    ("LDM, STM, long", 0xFE50_2000, 0xE810_0000),
+    ("LDRD, STRD", 0xFE40_0000, 0xE840_0000),
+    ("LDR by table", 0xFFF0_FFE0, 0xE8D0_F000),
+    ("data, register", 0xFE00_8000, 0xEA00_0000),
+    ("data, constant", 0xFA00_8000, 0xF000_0000),
+    ("data, plain constant", 0xFA00_8000, 0xF200_0000),
+    ("branches, long", 0xF800_8000, 0xF000_8000),
+    ("LDR, STR by constant, long", 0xFF80_0000, 0xF880_0000),
+    ("LDR, STR by register, long", 0xFF80_0FC0, 0xF800_0000),
+    ("LDR, STR with an index", 0xFF80_0800, 0xF800_0800),
+    ("LDRSB, LDRSH", 0xFE80_0000, 0xF880_0000),
+    ("shifts by register, extensions", 0xFF80_F080, 0xFA00_F000),
+    ("extensions, long", 0xFF80_F0C0, 0xFA00_F080),
+    ("reversals, CLZ", 0xFFC0_F0C0, 0xFA80_F080),
+    ("multiplications", 0xFF80_00C0, 0xFB00_0000),
+    ("multiplications, long", 0xFF80_0000, 0xFB80_0000),
+    ("barriers", 0xFFFF_FFE0, 0xF3BF_8F40),
+];
+/// Conditions of a block, in CPSR: of two instructions, the first if equal, the other if not; of one, if carry is set.
+const BLOCKS: [u32; 3] = [0, 0x0000_0C00, 0x0000_2800];
+
 /// Kinds that access memory, which shall mostly be where it is compared.
 const TRANSFERS: &[&str] = &["LDR", "LDM"];
 const BARRIERS: &[u32] = &[0xF57F_F04F, 0xF57F_F05A, 0xF5D1_F000, 0xF551_F020, 0xF7D2_F003];
@@ -140,6 +184,8 @@ struct After {
 
 /// Puts an instruction and its data into memory, and registers into the core.
 fn prepare(core: &Interpreter, word: u32, registers: Regs) {
+    let long = registers.is_thumb() && word >> 16 != 0;
+    let word = if long { word.rotate_left(16) } else { word };
     let memory: &Memory = core.bus.sdram();
     memory.set_word(CODE + MOVED, word);
     // A store that went astray may have been to it.
@@ -155,6 +201,31 @@ fn prepare(core: &Interpreter, word: u32, registers: Regs) {
 fn after(core: &Interpreter) -> After {
     let data = window().map(|address| core.bus.sdram().word(address)).collect();
     After { registers: core.arm.regs(), data, time: core.bus.now() }
+}
+
+/// Runs random instructions of a kind; returns how many ran quickly and their conditions held.
+fn compare_kind(core: &mut Interpreter, random: &mut Random, kind: Kind, before: Regs, thumb: bool) -> usize {
+    let (name, mask, value) = kind;
+    random.wild = if TRANSFERS.iter().any(|transfer| name.starts_with(transfer)) { 64 } else { u32::MAX };
+    let mut quick = 0;
+    for _ in 0..SAMPLES {
+        let mut registers = random.registers(before);
+        let condition = if random.one_in(4) { random.next() % 15 } else { 14 };
+        let mut word = random.next() & !mask | value;
+        let mut always = true;
+        if thumb {
+            // Hints are no IT, and the library would sleep by some.
+            word |= u32::from(mask == 0xFF00 && value == 0xBF00 && word & 15 == 0);
+            word &= if mask >> 16 == 0 { 0xFFFF } else { u32::MAX };
+            registers.cpsr |= psr::T | if random.one_in(3) { BLOCKS[random.next() as usize % BLOCKS.len()] } else { 0 };
+        } else {
+            word = condition << 28 | word & 0x0FFF_FFFF;
+            always = condition == 14;
+        }
+        // An instruction whose condition fails runs quickly, whatever it is.
+        quick += usize::from(compare(core, word, registers) && always);
+    }
+    quick
 }
 
 /// Has the library and then the quick core run an instruction; whether both did.
@@ -194,20 +265,11 @@ fn what_runs_quickly_does_the_same_as_by_the_library() {
     let mut core = core();
     let before = core.arm.regs();
     let mut random = Random { state: 0x1234_5678_9ABC_DEF1, wild: u32::MAX };
-    let mut quick = BTreeMap::new();
-    for (name, mask, value) in KINDS {
-        random.wild = if TRANSFERS.iter().any(|transfer| name.starts_with(transfer)) { 64 } else { u32::MAX };
-        for _ in 0..SAMPLES {
-            let condition = if random.one_in(4) { random.next() % 15 } else { 14 };
-            let word = condition << 28 | random.next() & !mask & 0x0FFF_FFFF | value;
-            let registers = random.registers(before);
-            let ran = compare(&mut core, word, registers);
-            // An instruction whose condition fails runs quickly, whatever it is.
-            *quick.entry(name).or_insert(0) += usize::from(ran && condition == 14);
+    for (kinds, thumb) in [(KINDS, false), (THUMB, true)] {
+        for kind in kinds {
+            let count = compare_kind(&mut core, &mut random, *kind, before, thumb);
+            assert!(count >= SAMPLES / QUICK_SHARE, "of {SAMPLES} {} only {count} ran quickly", kind.0);
         }
-    }
-    for (name, count) in quick {
-        assert!(count >= SAMPLES / QUICK_SHARE, "of {SAMPLES} {name} only {count} ran quickly");
     }
     for word in BARRIERS {
         let registers = random.registers(before);

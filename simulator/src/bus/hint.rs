@@ -1,0 +1,50 @@
+//! Instructions that say something to the bus when they are fetched.
+
+/// What one says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Hint {
+    /// The core sleeps: WFI, WFE.
+    Wait,
+    /// What was written before comes before what follows: DSB, DMB, of any kind.
+    Barrier,
+}
+
+/// Tells barriers' words but for their kind; ISB has a bit more.
+const BARRIER_MASK: u32 = 0xFFFF_FFE0;
+
+/// Returns what a word of ARM code says.
+#[inline]
+pub(super) fn of(word: u32) -> Option<Hint> {
+    if word & 0x0FFF_FFFE == 0x0320_F002 {
+        Some(Hint::Wait)
+    } else {
+        (word & BARRIER_MASK == 0xF57F_F040).then_some(Hint::Barrier)
+    }
+}
+
+/// Returns what a half word of Thumb code says, after the one before.
+#[inline]
+pub(super) fn of_thumb(before: u32, half: u32) -> Option<Hint> {
+    if half & 0xFFEF == 0xBF20 {
+        Some(Hint::Wait)
+    } else {
+        ((before << 16 | half) & BARRIER_MASK == 0xF3BF_8F40).then_some(Hint::Barrier)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waits_and_barriers_are_known_in_both_instruction_sets() {
+        // WFE, WFI, NOP; DSB SY, DMB ISH, ISB.
+        assert_eq!([0xE320_F002, 0xE320_F003, 0xE320_F000].map(of), [Some(Hint::Wait), Some(Hint::Wait), None]);
+        let barriers = [0xF57F_F04F, 0xF57F_F05B, 0xF57F_F06F].map(of);
+        assert_eq!(barriers, [Some(Hint::Barrier), Some(Hint::Barrier), None]);
+        assert_eq!([0xBF20, 0xBF30, 0xBF00].map(|half| of_thumb(0, half)), [Some(Hint::Wait), Some(Hint::Wait), None]);
+        let barriers = [0x8F4F, 0x8F5B, 0x8F6F].map(|half| of_thumb(0xF3BF, half));
+        assert_eq!(barriers, [Some(Hint::Barrier), Some(Hint::Barrier), None]);
+        assert_eq!(of_thumb(0x4608, 0x8F4F), None);
+    }
+}
