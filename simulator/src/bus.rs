@@ -227,7 +227,12 @@ impl Bus {
         match if bytes == 2 { hint::of_thumb(before, word) } else { hint::of(word) } {
             Some(Hint::Wait) => self.set_deadline(0),
             Some(Hint::Barrier) => self.barrier(),
-            None => {}
+            Some(Hint::Exclusive) if !self.mmu_on.load(Relaxed) => {
+                let needed =
+                    "the MMU on: without, memory is strongly ordered, where an exclusive access need not succeed";
+                return Err(self.refuse(Access::Fetch, address, "an exclusive access", needed));
+            }
+            Some(Hint::Exclusive) | None => {}
         }
         Ok(word)
     }

@@ -19,6 +19,7 @@ pub mod uboot;
 use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
+use firmware::de1_soc::arguments::{self, Words};
 
 use program::Program;
 
@@ -28,6 +29,8 @@ pub const PROGRAM_NAME: &str = "halfspace.bin";
 pub const FPGA_IMAGE_NAME: &str = "halfspace.rbf";
 /// Name of the model's mesh file on the card.
 pub const MESH_NAME: &str = "model.mesh";
+/// Name of the file of what the program is told besides.
+pub const OPTIONS_NAME: &str = "options.txt";
 /// Name of U-Boot's script on the card.
 pub const SCRIPT_NAME: &str = "boot.scr";
 
@@ -47,6 +50,8 @@ pub struct Extras {
     pub fpga_image: Option<Vec<u8>>,
     /// A model as a mesh file.
     pub mesh: Option<Vec<u8>>,
+    /// What the program is told besides, as [`parse_options`] found it right.
+    pub options: Option<String>,
 }
 
 /// Returns the files that U-Boot wants, and what there is besides.
@@ -58,7 +63,27 @@ pub fn files(program: &Program, extras: Extras) -> Vec<CardFile> {
     ];
     files.extend(extras.fpga_image.map(|bytes| CardFile { name: FPGA_IMAGE_NAME, bytes }));
     files.extend(extras.mesh.map(|bytes| CardFile { name: MESH_NAME, bytes }));
+    let line = |options| format!("options={options}\n").into_bytes();
+    files.extend(extras.options.map(|options| CardFile { name: OPTIONS_NAME, bytes: line(options) }));
     files
+}
+
+/// Takes words for the program that the card's script does not find by itself, like `usb full`.
+///
+/// # Errors
+/// What the program would say of them.
+pub fn parse_options(text: &str) -> Result<String, String> {
+    const FILES: [&str; 2] = ["rbf", "mesh"];
+    let mut words = Words::new();
+    for word in ["go"].into_iter().chain(text.split_whitespace()) {
+        if FILES.contains(&word) {
+            return Err(format!("`{word}` is the card's script's to say: use --rbf and --mesh"));
+        }
+        let taken = word.try_into().ok().and_then(|word| words.push(word).ok());
+        taken.ok_or_else(|| format!("`{word}` is too long, or a word too many"))?;
+    }
+    arguments::asked(&words).map_err(|error| error.to_string())?;
+    Ok(text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 /// Reads an FPGA image (.rbf).
@@ -122,11 +147,30 @@ mod tests {
     }
 
     #[test]
+    fn options_are_what_the_program_takes() {
+        assert_eq!(parse_options(" usb  full usb pulse").as_deref(), Ok("usb full usb pulse"));
+        for (text, says) in [
+            ("usb fast", "argument `usb` wants `full` or `pulse`"),
+            ("turbo", "argument `turbo` means nothing"),
+            ("rbf 8000000 100", "use --rbf and --mesh"),
+            ("a-word-that-is-longer-than-any", "is too long"),
+        ] {
+            let error = parse_options(text).expect_err("refused");
+            assert!(error.contains(says), "{error}");
+        }
+        let extras = Extras { options: Some("usb full".into()), ..Extras::default() };
+        let program = Program { address: 0x0100_0000, bytes: vec![1, 2, 3, 4] };
+        let files = files(&program, extras);
+        assert_eq!(files[2], CardFile { name: "options.txt", bytes: b"options=usb full\n".to_vec() });
+    }
+
+    #[test]
     fn an_fpga_image_and_a_mesh_are_on_the_card_only_if_given() {
         let program = Program { address: 0x0100_0000, bytes: vec![1, 2, 3, 4] };
         let some = || Some(vec![0xFF; 8]);
         let names = |fpga_image, mesh| {
-            files(&program, Extras { fpga_image, mesh }).iter().map(|file| file.name).collect::<Vec<_>>()
+            let extras = Extras { fpga_image, mesh, options: None };
+            files(&program, extras).iter().map(|file| file.name).collect::<Vec<_>>()
         };
         assert_eq!(names(None, None), ["boot.scr", "halfspace.bin"]);
         assert_eq!(names(some(), None), ["boot.scr", "halfspace.bin", "halfspace.rbf"]);

@@ -12,6 +12,7 @@ use clap::{Args, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use firmware::scene::Scene;
 use firmware::style::Style;
 
+use crate::card::parse_options;
 use crate::commands;
 use crate::qemu::UsbIds;
 use values::{parse_rotation, parse_scene, parse_style, parse_units, parse_usb_ids};
@@ -205,6 +206,9 @@ pub struct ImageArguments {
     /// Model that is shown from the card: one of those that render reads, put on it as a .mesh file
     #[arg(long, value_name = "MODEL")]
     pub mesh: Option<PathBuf>,
+    /// What the program is told at its start, in docs/flash.md's words: "usb full", "usb pulse" or both
+    #[arg(long, value_name = "WORDS", value_parser = parse_options)]
+    pub options: Option<String>,
     /// U-Boot with its preloader (u-boot-with-spl.sfp) instead of one that is built here
     #[arg(long, value_name = "FILE")]
     pub uboot: Option<PathBuf>,

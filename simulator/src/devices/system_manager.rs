@@ -33,7 +33,8 @@ impl SystemManager {
             rom_control: 0,
             core1_start: 0,
             switch_state: [0x4953_5756, 0, 0],
-            warm_ram: [0; 5],
+            // A warm reset starts what lies in the on-chip RAM (U-Boot's `misc_gen5.c`).
+            warm_ram: [0xAE9E_FEBC, 0, 0, 0, 0],
             usb_l3: 0,
         }
     }

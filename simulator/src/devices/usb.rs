@@ -15,6 +15,8 @@ use crate::bus::Bus;
 use crate::time::{Clocks, microseconds};
 use crate::violation::Access;
 
+/// Ports of the board's hub, a USB2512B.
+const PORTS: usize = 2;
 /// Ports of the hub that have a connector, and what is plugged there.
 const KEYBOARD_PORT: usize = 1;
 const PAD_PORT: usize = 2;
@@ -56,7 +58,7 @@ impl Usb {
     /// Returns the controller after power-on, with a hub and nothing plugged into it.
     pub fn new() -> Self {
         let log = Log::default();
-        let hub = Shared::new(Hub::new(Speed::High));
+        let hub = Shared::new(Hub::with_ports(Speed::High, PORTS));
         let mut core = Core::new(Build::cyclone_v(), log.clone());
         core.plug(Box::new(hub.clone()));
         Self {

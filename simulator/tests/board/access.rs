@@ -1,6 +1,6 @@
 //! Accesses that would not work on the board end the run, with a report that says what was missing.
 
-use crate::common::{Read, Step, Write, image, passes, run, stops};
+use crate::common::{Raw, Read, Step, Write, image, mcr, passes, r0, run, stops};
 use simulator::violation::Access;
 use simulator::{Event, PowerOn};
 
@@ -103,4 +103,15 @@ fn a_bridge_that_hangs_ends_by_the_watchdog() {
     assert!((2.62..2.64).contains(&simulator::time::in_milliseconds(machine.now())));
     let status = machine.hardware(|hardware| hardware.resets.read(0)).unwrap();
     assert_eq!(status, 1 << 14 | 1, "the watchdog's bit beside power-on's, which nobody cleared");
+}
+
+#[test]
+fn an_exclusive_access_without_the_mmu_stops() {
+    const SCTLR: [u32; 4] = [0, 1, 0, 0];
+    // ldrex r0, [r1]
+    let exclusive = Raw(0xE191_0F9F);
+    passes(&[Read(0x0200_0000), exclusive]);
+    let off = [r0(0x00C5_0878).as_slice(), &[mcr(SCTLR), Raw(0xF57F_F06F), exclusive]].concat();
+    let violation = stops(&[[Read(0x0200_0000)].as_slice(), &off].concat());
+    assert!(violation.to_string().contains("the MMU on"), "{violation}");
 }

@@ -4,7 +4,7 @@
 use crc::{CRC_32_ISO_HDLC, Crc};
 use firmware::de1_soc::memory_map;
 
-use super::{FPGA_IMAGE_NAME, MESH_NAME, PROGRAM_NAME};
+use super::{FPGA_IMAGE_NAME, MESH_NAME, OPTIONS_NAME, PROGRAM_NAME};
 
 /// First byte of where the program may lie: `CODE` of memory.x.
 pub const PROGRAM_START: u32 = 0x0100_0000;
@@ -56,6 +56,14 @@ else
   echo No {FPGA_IMAGE_NAME} on the card: the FPGA stays as it is
 fi
 
+# Of a line like `options=usb full`. It is loaded to where the next file goes.
+setenv options
+if test -e mmc 0:1 {OPTIONS_NAME}; then
+  if load mmc 0:1 {MESH:#010x} {OPTIONS_NAME}; then
+    env import -t -r {MESH:#010x} ${{filesize}} options
+  fi
+fi
+
 setenv mesh_file
 if test -e mmc 0:1 {MESH_NAME}; then
   if load mmc 0:1 {MESH:#010x} {MESH_NAME}; then
@@ -73,7 +81,7 @@ if load mmc 0:1 {address:#010x} {PROGRAM_NAME}; then
   dcache off
   icache flush
   icache off
-  go {address:#010x} ${{fpga_image}} ${{mesh_file}}
+  go {address:#010x} ${{fpga_image}} ${{mesh_file}} ${{options}}
 else
   echo {PROGRAM_NAME} cannot be read from partition 1 of the card: copy it
 fi
@@ -132,7 +140,7 @@ mod tests {
     fn the_program_is_told_of_an_fpga_image_that_u_boot_could_not_use() {
         // The same words that the firmware's own reader is tested with.
         assert!(text(PROGRAM_START).contains("setenv fpga_image rbf 0x08000000 ${filesize}\n"));
-        assert!(text(PROGRAM_START).contains("  go 0x01000000 ${fpga_image} ${mesh_file}\n"));
+        assert!(text(PROGRAM_START).contains("  go 0x01000000 ${fpga_image} ${mesh_file} ${options}\n"));
         assert!(text(PROGRAM_START).contains("setenv mesh_file mesh 0x0a000000 ${filesize}\n"));
     }
 }

@@ -12,7 +12,7 @@ use serde::Deserialize;
 use super::State;
 use crate::card::program::Program;
 use crate::card::uboot::UBoot;
-use crate::card::{Extras, FPGA_IMAGE_NAME, MESH_NAME, PROGRAM_NAME, SCRIPT_NAME, files, script};
+use crate::card::{Extras, FPGA_IMAGE_NAME, MESH_NAME, OPTIONS_NAME, PROGRAM_NAME, SCRIPT_NAME, files, script};
 use crate::cli::Board;
 use crate::commands::image;
 use crate::paths::TemporaryFolder;
@@ -78,7 +78,8 @@ pub(super) fn card(state: &State) -> anyhow::Result<()> {
     // As long as an uncompressed one.
     let fpga_image: Vec<u8> = (0..7_000_001_u32).map(|index| (index.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     let mesh = fpga_image[..100_003].to_vec();
-    let files = files(&program, Extras { fpga_image: Some(fpga_image), mesh: Some(mesh) });
+    let files =
+        files(&program, Extras { fpga_image: Some(fpga_image), mesh: Some(mesh), options: Some("usb full".into()) });
     image::write_files(output, &program, &files)?;
     image::write_card(output, &files, &uboot)?;
     let card = fs::read(output.join(image::CARD_IMAGE)).context("there is no card image")?;
@@ -150,7 +151,7 @@ fn check_files(tools: &Tools, output: &Path, partition: &[u8]) -> anyhow::Result
     let list = run(Command::new(&tools.mdir).args(["-b", "-i"]).arg(&image).arg("::"))?;
     let mut names: Vec<&str> = list.lines().filter_map(|line| line.strip_prefix("::/")).collect();
     names.sort_unstable();
-    ensure!(names == [SCRIPT_NAME, PROGRAM_NAME, FPGA_IMAGE_NAME, MESH_NAME], "mdir lists {names:?}");
+    ensure!(names == [SCRIPT_NAME, PROGRAM_NAME, FPGA_IMAGE_NAME, MESH_NAME, OPTIONS_NAME], "mdir lists {names:?}");
     for name in names {
         let copy = output.join(format!("copy-of-{name}"));
         run(Command::new(&tools.mcopy).args(["-n", "-i"]).arg(&image).arg(format!("::{name}")).arg(&copy))?;

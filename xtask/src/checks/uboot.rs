@@ -39,8 +39,8 @@ pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
     let uboot = UBoot::read(&ensure_uboot(&state.progress)?.image)?;
     let program = Program::read(&elf)?;
     let script = for_virt(&script::text(program.address))?;
-    let with = |fpga_image: Option<Vec<u8>>, mesh: Option<Vec<u8>>, leave_out: &str| {
-        let mut files = files(&program, Extras { fpga_image, mesh });
+    let with = |extras: Extras, leave_out: &str| {
+        let mut files = files(&program, extras);
         files.retain(|file| file.name != leave_out);
         for file in files.iter_mut().filter(|file| file.name == SCRIPT_NAME) {
             file.bytes = script::image(&script);
@@ -54,11 +54,16 @@ pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
         boot(&qemu, &bios, &disk)
     };
     let (size, mesh_size) = (300_001, 70_003);
+    let all = Extras {
+        fpga_image: Some(vec![0x5A; size]),
+        mesh: Some(vec![0xA5; mesh_size]),
+        options: Some("usb full usb pulse".into()),
+    };
     let [with_image, without, without_program] = thread::scope(|scope| {
         let jobs = [
-            ("with", with(Some(vec![0x5A; size]), Some(vec![0xA5; mesh_size]), "")),
-            ("without", with(None, None, "")),
-            ("no-program", with(None, None, PROGRAM_NAME)),
+            ("with", with(all, "")),
+            ("without", with(Extras::default(), "")),
+            ("no-program", with(Extras::default(), PROGRAM_NAME)),
         ];
         let threads = jobs.map(|(name, files)| scope.spawn(move || run(name, files)));
         threads.map(|thread| thread.join().expect("it does not panic"))
@@ -73,7 +78,8 @@ pub(super) fn follows_the_script(state: &State) -> anyhow::Result<()> {
     // This U-Boot cannot configure an FPGA, so the program is told to.
     let with_image = with_image?;
     says(&with_image, &[&format!("{size} bytes read"), "U-Boot could not configure the FPGA", &read])?;
-    says(&with_image, &[&format!("would go 0x41000000 rbf 0x48000000 {size:x} mesh 0x4a000000 {mesh_size:x}")])?;
+    let words = format!("rbf 0x48000000 {size:x} mesh 0x4a000000 {mesh_size:x} usb full usb pulse");
+    says(&with_image, &[&format!("would go 0x41000000 {words}\r")])?;
     says(&without?, &[&format!("No {FPGA_IMAGE_NAME} on the card"), &read, "would go 0x41000000\r"])?;
     says(&without_program?, &[&format!("{PROGRAM_NAME} cannot be read from partition 1 of the card")])
 }

@@ -9,7 +9,8 @@ use crate::card::layout::card;
 use crate::card::program::{BYTES_MAX, Program};
 use crate::card::uboot::UBoot;
 use crate::card::{
-    CardFile, Extras, FPGA_IMAGE_NAME, MESH_NAME, PROGRAM_NAME, SCRIPT_NAME, files, read_fpga_image, read_mesh, script,
+    CardFile, Extras, FPGA_IMAGE_NAME, MESH_NAME, OPTIONS_NAME, PROGRAM_NAME, SCRIPT_NAME, files, read_fpga_image,
+    read_mesh, script,
 };
 use crate::cli::{Board, ImageArguments};
 use crate::firmware_build::build_firmware;
@@ -45,7 +46,7 @@ pub fn run(arguments: &ImageArguments) -> anyhow::Result<()> {
     let toolchain = ensure_firmware_toolchain(&progress)?;
     let elf = build_firmware(Board::De1Soc, &[], &toolchain, &progress)?;
     let program = Program::read(&elf)?;
-    let files = files(&program, Extras { fpga_image, mesh });
+    let files = files(&program, Extras { fpga_image, mesh, options: arguments.options.clone() });
     write_files(&output, &program, &files)?;
     let (uboot, origin) = match given {
         Some(uboot) => (uboot, "as given".to_string()),
@@ -77,7 +78,7 @@ pub fn write_files(output: &Path, program: &Program, files: &[CardFile]) -> anyh
     let folder = output.join(CARD_FOLDER);
     fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     // An older run's would go onto a card with this one's files.
-    for name in [PROGRAM_NAME, SCRIPT_NAME, FPGA_IMAGE_NAME, MESH_NAME] {
+    for name in [PROGRAM_NAME, SCRIPT_NAME, FPGA_IMAGE_NAME, MESH_NAME, OPTIONS_NAME] {
         remove(&folder.join(name))?;
     }
     remove(&output.join(CARD_IMAGE))?;
@@ -137,13 +138,15 @@ mod tests {
     fn an_older_run_s_fpga_image_and_card_go() {
         let folder = TemporaryFolder::new().expect("folders can be made");
         let program = Program { address: 0x0100_0000, bytes: vec![7; 4] };
-        let with = files(&program, Extras { fpga_image: Some(vec![0xFF; 8]), mesh: Some(vec![1; 8]) });
+        let options = Some("usb full".to_string());
+        let with = files(&program, Extras { fpga_image: Some(vec![0xFF; 8]), mesh: Some(vec![1; 8]), options });
         write_files(folder.path(), &program, &with).expect("it can be written");
         fs::write(folder.path().join(CARD_IMAGE), "old").expect("it can be written");
         fs::write(folder.path().join("card/notes.txt"), "mine").expect("it can be written");
         write_files(folder.path(), &program, &files(&program, Extras::default())).expect("it can be written");
         let exists = |name: &str| folder.path().join(name).exists();
         assert!(!exists("card/halfspace.rbf") && !exists("card/model.mesh") && !exists(CARD_IMAGE));
+        assert!(!exists("card/options.txt"));
         assert!(exists("card/notes.txt") && exists("card/boot.scr") && exists("card/halfspace.bin"));
         assert!(exists("halfspace.bin") && exists("boot.scr") && exists("boot.cmd"));
     }

@@ -64,7 +64,8 @@ impl SystemControl {
         // All domains as managers: nothing is checked.
         set(DACR, u32::MAX);
         let cached = if start.cached { sctlr::M | sctlr::C | sctlr::I } else { 0 };
-        set(SCTLR, sctlr::Z | cached);
+        // Accesses that are not aligned are trapped, too (U-Boot's `start.S`).
+        set(SCTLR, sctlr::Z | sctlr::A | cached);
         self.note_translation();
     }
 
