@@ -89,6 +89,10 @@ pub fn draw_frame<P: Port, W: Wait>(
             let culling = if found.is_two_sided() { Culling::None } else { object.culling };
             let place = place(object.model.times(found.fit()), culling, Some(found.extent()));
             for part in found.blocks() {
+                // Lines of a model that has faces as well; of one without, every pass is of lines.
+                if part.corners.is_empty() && pass != Pass::Lines {
+                    continue;
+                }
                 if let Some(model) = painter.timed(|| block.decode(found.header(), &part)) {
                     painter.draw(&model, pass, &place);
                 }

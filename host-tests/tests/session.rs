@@ -6,7 +6,7 @@ use firmware::link::{self, FrameReport, HostMessage};
 use firmware::scene::Scene;
 use firmware::style::Style;
 use host_tests::rng::Rng;
-use xtask::machine::{Link, Machine, with_host};
+use xtask::machine::{Link, Machine, with_host, with_host_and_mesh};
 
 /// The host's end of the application's serial line.
 type Line<'a> = Link<'a, dyn Machine + 'a>;
@@ -139,6 +139,35 @@ fn a_message_shows_a_scene_and_a_style() {
         link.send_raw(&show(Some(0), Some(Style::ALL.len() as u8))).expect("the line takes it");
         assert_eq!(frame(link, &leaning(0.0, &[])).triangles_submitted, 4_096);
     });
+}
+
+/// A cube, its outlines beside whatever `more` says.
+fn cube_and(more: &str) -> Vec<u8> {
+    let cube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+                f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+    let text = format!("{cube}{more}");
+    let model = models::obj::parse_obj(text.as_bytes(), "cube.obj".as_ref(), |_| Ok(None)).expect("a good model");
+    models::compile::compile(&model, &Default::default()).expect("it compiles").bytes
+}
+
+#[test]
+fn a_line_beside_a_models_faces_shows_among_its_edges_alone() {
+    let draw = |mesh: Vec<u8>, style: Style| {
+        let drawn = with_host_and_mesh(mesh, |machine| {
+            let link = &mut Link::new(machine);
+            link.begin(Scene::Model.index() as u8).expect("the scene begins");
+            link.show(None, Some(style)).expect("the line takes it");
+            Ok(frame(link, &leaning(0.0, &[])))
+        });
+        drawn.expect("the application starts")
+    };
+    for style in Style::ALL {
+        // From corner to corner through the cube.
+        let (with, without) = (draw(cube_and("l 1 7\n"), *style), draw(cube_and(""), *style));
+        let line = u32::from(matches!(style, Style::Wire | Style::HiddenLines));
+        assert_eq!(with.triangles_drawn, without.triangles_drawn + line, "{style:?}");
+        assert_eq!(with.checksum == without.checksum, *style != Style::Wire, "{style:?}");
+    }
 }
 
 fn show(scene: Option<u8>, style: Option<u8>) -> Vec<u8> {
