@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use fpga_regs::packet::{FlatTriangle, GouraudTriangle, Header, Kind, PixelMode, TriangleShape};
-use fpga_regs::screen::Rgb332;
+use fpga_regs::screen::{DEPTH_FAR, DEPTH_FRACTION_BITS, Rgb332};
 
 use crate::light::{ObjectLight, UnevenLight};
 use crate::look::{LitColour, VertexLook};
@@ -221,7 +221,9 @@ impl Unlit {
     pub const DEPTH_GREY: Self = Self { mode: PixelMode { depth_grey: true, ..PixelMode::USUAL }, pushed_back: false };
 
     /// Units of depth that a face is pushed back by, beside its slope.
-    const UNITS: u32 = 2 << fpga_regs::screen::DEPTH_FRACTION_BITS;
+    const UNITS: u32 = 2 << DEPTH_FRACTION_BITS;
+    /// Most that a slope counts.
+    const WHOLE_RANGE: u32 = (DEPTH_FAR as u32) << DEPTH_FRACTION_BITS;
 }
 
 impl Shade for Unlit {
@@ -240,12 +242,51 @@ impl Shade for Unlit {
         if self.pushed_back {
             // Depth is the eighth word of a shape, its steps the two behind.
             let [.., depth, step_x, step_y] = shape;
-            let slope = (*step_x as i32).unsigned_abs().wrapping_add((*step_y as i32).unsigned_abs());
+            let slope = (*step_x as i32).unsigned_abs().saturating_add((*step_y as i32).unsigned_abs());
+            // The whole range of depth is behind everything; more would wrap round to the front.
+            let slope = slope.min(Self::WHOLE_RANGE);
             *depth = depth.wrapping_add(slope).wrapping_add(Self::UNITS);
         }
         words[0] = Header::of(Kind::FlatTriangle).with_mode(self.mode).0;
         *drawn += 1;
         sink.take::<{ FlatTriangle::WORDS }>(Drawn::Flat { corners, colour: [0; 3] });
         ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Keeps one packet.
+    struct One([u32; FlatTriangle::WORDS]);
+
+    impl Sink for One {
+        fn room<const N: usize>(&mut self) -> Option<&mut [u32; N]> {
+            self.0.first_chunk_mut()
+        }
+
+        fn take<const N: usize>(&mut self, _: Drawn<'_>) {}
+    }
+
+    #[test]
+    fn what_hides_lines_lies_behind_itself_however_steep() {
+        const DEPTH: usize = FlatTriangle::WORDS - 3;
+        for (start, rise) in (0..60).flat_map(|start| (0..60).map(move |rise| (1_000 * start, 1_000 * rise))) {
+            if start + rise > i32::from(DEPTH_FAR) {
+                continue;
+            }
+            // A sixteenth of a pixel wide, its left edge through pixels' centres.
+            let vertex = |x, y, depth| ScreenVertex { x, y, depth, ..ScreenVertex::default() };
+            let corners = [vertex(8, 0, start), vertex(8, 160, start), vertex(9, 160, start + rise)];
+            let depth = |unlit: Unlit| {
+                let (mut sink, mut drawn) = (One([0; FlatTriangle::WORDS]), 0);
+                let _ = unlit.draw(&mut sink, corners.each_ref(), (), &mut drawn);
+                assert_eq!(drawn, 1);
+                sink.0[DEPTH] as i32
+            };
+            let (plain, pushed) = (depth(Unlit { pushed_back: false, ..Unlit::HIDING }), depth(Unlit::HIDING));
+            assert!(pushed > plain, "{start} and {rise} more: {pushed} is before {plain}");
+        }
     }
 }
