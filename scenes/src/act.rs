@@ -47,6 +47,11 @@ pub trait Perform {
     /// Takes everything that sticks and keys have moved back to its beginning.
     fn centre(&mut self);
 
+    /// Does the same for one who wants the tilt level, too; a scene that can be begun anew is.
+    fn reset(&mut self) {
+        self.centre();
+    }
+
     /// Returns which of its two modes the scene is in, if it has two.
     fn mode(&self) -> Option<&'static str> {
         None

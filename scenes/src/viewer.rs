@@ -58,7 +58,7 @@ impl Viewer {
     }
 
     /// Takes in a frame's controls. Start and Select change the scene, which begins in its own style; Triangle
-    /// changes the style, Square the projection; while the pose is frozen nothing moves.
+    /// changes the style, Square the projection, R3 resets and L3 centres; while the pose is frozen nothing moves.
     pub fn update(&mut self, state: &ControllerState) {
         let count = Scene::ALL.len();
         let step = usize::from(state.pressed.contains(Button::Start))
@@ -73,7 +73,9 @@ impl Viewer {
         if state.pressed.contains(Button::Square) {
             self.manner.projection = self.manner.projection.other();
         }
-        if state.pressed.contains(Button::L3) || state.pressed.contains(Button::R3) {
+        if state.pressed.contains(Button::R3) {
+            self.act.perform().reset();
+        } else if state.pressed.contains(Button::L3) {
             self.act.perform().centre();
         }
         if !state.frozen {
@@ -84,5 +86,24 @@ impl Viewer {
     /// Returns what is to be drawn now, with the controller's tilt.
     pub fn stage(&mut self, state: &ControllerState) -> Stage {
         self.act.perform().stage(state, self.manner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stick_that_steers_the_game_can_be_pushed_without_ending_it() {
+        let mut viewer = Viewer::new(Scene::Game);
+        let frames = |viewer: &mut Viewer, count: usize, pressed: &[Button]| {
+            let pressed = pressed.iter().copied().collect();
+            (0..count).for_each(|_| viewer.update(&ControllerState { pressed, ..ControllerState::default() }));
+            let Act::Game(balancer) = &viewer.act else { panic!("the game has gone") };
+            *balancer.game()
+        };
+        assert_eq!(frames(&mut viewer, 600, &[]).countdown(), 0, "it is played");
+        assert_eq!(frames(&mut viewer, 1, &[Button::L3]).countdown(), 0);
+        assert!(frames(&mut viewer, 1, &[Button::R3]).countdown() > 0, "R3 begins another round");
     }
 }

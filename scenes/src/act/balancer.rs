@@ -60,8 +60,11 @@ impl Perform for Balancer {
         self.news = [(); STEPS].map(|()| self.game.step(steer));
     }
 
+    /// Does nothing: the stick that is pushed for it steers.
+    fn centre(&mut self) {}
+
     /// Begins another round.
-    fn centre(&mut self) {
+    fn reset(&mut self) {
         self.game.restart();
     }
 
