@@ -114,6 +114,16 @@ impl Controls {
         Ok(())
     }
 
+    /// Takes in a key that was typed where nobody tells when it is let go, by its usage on a USB keyboard: as if it
+    /// was let go and pressed, but it asks for one step only, however long it stays down.
+    pub fn type_key(&mut self, usage: u8) {
+        for usage in [0, usage] {
+            // Its length is right.
+            let _ = self.accept_keyboard(&[0, 0, usage, 0, 0, 0, 0, 0]);
+        }
+        self.requests.ask_once(self.keyboard.requests().union(Requests::of_buttons(self.keyboard.held)));
+    }
+
     /// Takes in what a board's own keys and switches are, 3 bytes.
     ///
     /// # Errors

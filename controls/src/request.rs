@@ -59,18 +59,27 @@ impl FromIterator<Request> for Requests {
 /// Keeps what was asked for until its frame comes, in the order of asking.
 ///
 /// A step waits at most once. One whose key is still down when its frame ends asks again, behind those that
-/// wait already: of two keys that are held, each has every other frame.
+/// wait already: of two keys that are held, each has every other frame. A key that was typed at a terminal, which
+/// tells of no release, asks once.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RequestLatch {
     waiting: [Option<Request>; Request::ALL.len()],
     held: Requests,
+    /// Of those that are held, the ones that ask for one step alone.
+    once: Requests,
 }
 
 impl RequestLatch {
     /// Takes in what is asked for now: what was not before queues up.
     pub(crate) fn update(&mut self, held: Requests) {
         let before = core::mem::replace(&mut self.held, held);
+        self.once.0 &= held.0;
         self.ask(Requests(held.0 & !before.0));
+    }
+
+    /// Has those of these that are held ask no further until they are let go.
+    pub(crate) fn ask_once(&mut self, requests: Requests) {
+        self.once.0 |= requests.0 & self.held.0;
     }
 
     /// Returns what was asked for first.
@@ -82,7 +91,7 @@ impl RequestLatch {
     pub(crate) fn end_frame(&mut self) {
         self.waiting[0] = None;
         self.waiting.rotate_left(1);
-        self.ask(self.held);
+        self.ask(Requests(self.held.0 & !self.once.0));
     }
 
     fn ask(&mut self, requests: Requests) {

@@ -93,12 +93,9 @@ impl Intake {
     }
 
     /// Takes in a key that was typed at a terminal, by its usage on a USB keyboard: as if it was let go and pressed
-    /// there.
+    /// there, for a step at most.
     pub fn type_key(&mut self, usage: u8) {
-        for usage in [0, usage] {
-            // Its length is right.
-            let _ = self.controls.accept_keyboard(&[0, 0, usage, 0, 0, 0, 0, 0]);
-        }
+        self.controls.type_key(usage);
         self.typed = TYPED_FRAMES;
     }
 
@@ -157,6 +154,29 @@ mod tests {
             intake.end_frame();
         }
         assert_eq!(intake.tally(), Tally::default());
+    }
+
+    #[test]
+    fn a_typed_key_asks_for_one_step_and_a_held_one_for_one_a_frame() {
+        use controls::Request;
+        const I: u8 = 0x0C;
+        let steps = |intake: &mut Intake| {
+            let asked = |_| {
+                let asked = intake.state().asked;
+                intake.end_frame();
+                usize::from(asked == Some(Request::Up))
+            };
+            (0..10).map(asked).sum::<usize>()
+        };
+        let mut intake = Intake::new();
+        intake.type_key(I);
+        assert_eq!(steps(&mut intake), 1, "once typed");
+        intake.type_key(I);
+        intake.end_frame();
+        intake.type_key(I);
+        assert_eq!(steps(&mut intake), 1, "typed again before it was let go");
+        intake.accept(Report::Keyboard(&[0, 0, I, 0, 0, 0, 0, 0])).expect("a good report");
+        assert_eq!(steps(&mut intake), 10, "held on a keyboard");
     }
 
     #[test]
