@@ -97,8 +97,8 @@ mod tests {
     fn the_stick_that_steers_the_game_can_be_pushed_without_ending_it() {
         let mut viewer = Viewer::new(Scene::Game);
         let frames = |viewer: &mut Viewer, count: usize, pressed: &[Button]| {
-            let pressed = pressed.iter().copied().collect();
-            (0..count).for_each(|_| viewer.update(&ControllerState { pressed, ..ControllerState::default() }));
+            let (pressed, held) = (pressed.iter().copied().collect(), [Button::Right].into_iter().collect());
+            (0..count).for_each(|_| viewer.update(&ControllerState { pressed, held, ..ControllerState::default() }));
             let Act::Game(balancer) = &viewer.act else { panic!("the game has gone") };
             *balancer.game()
         };
