@@ -102,10 +102,9 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
     for (index, line) in text.lines().enumerate() {
         let content = line.split("//").next().unwrap_or_default();
         // A memory initialisation file's two settings: the radix shows in the words.
+        let content =
+            if names_the_radix(content) { content.split_once(';').map_or("", |(_, behind)| behind) } else { content };
         let content = content.rsplit('=').next().unwrap_or_default();
-        if line.contains("radix") {
-            continue;
-        }
         for word in content.split([' ', '\t', '\r', ',', ';']).filter(|word| !word.is_empty()) {
             let taken = bits(word).map_err(Problem::from).and_then(|bits| builder.take(bits));
             if taken.map_err(|problem| ReadError::line(file, index as u64 + 1, problem))? {
@@ -114,6 +113,12 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
         }
     }
     Err(ReadError::file(file, RomProblem::NoEnd))
+}
+
+/// Returns whether a line starts with a memory initialisation file's setting of its radix, in any case.
+fn names_the_radix(line: &str) -> bool {
+    const NAME: &str = "memory_initialization_radix";
+    line.trim_start().get(..NAME.len()).is_some_and(|start| start.eq_ignore_ascii_case(NAME))
 }
 
 /// Returns the bits of a word, the lowest in bit 0.

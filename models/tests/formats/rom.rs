@@ -51,6 +51,8 @@ fn lines_in_every_writing_give_the_same_model() {
         binary.join("\n"),
         format!("memory_initialization_radix=16;\nmemory_initialization_vector=\n{};\n", hex.join(",\n")),
         format!("memory_initialization_radix=2;\nmemory_initialization_vector={};", binary.join(", ")),
+        format!("MEMORY_INITIALIZATION_RADIX = 2; memory_initialization_vector={};", binary.join(", ")),
+        hex.join(" // the radix is 16: memory_initialization_radix\n"),
     ] {
         assert_eq!(parse(&text).expect(&text), expected, "{text}");
     }
