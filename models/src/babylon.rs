@@ -165,7 +165,7 @@ fn add(mesh: &Mesh, diffuse: [f32; 3], model: &mut Model) -> Result<(), Problem>
             model.normals.push(place.normal(normal));
         }
     }
-    add_colours(mesh, model, first, vertices)?;
+    add_colours(mesh, diffuse, model, first, vertices)?;
     let indices = mesh.indices.as_deref().unwrap_or_default();
     if !indices.len().is_multiple_of(3) {
         return Err(BabylonProblem::Length { list: "indices", found: indices.len(), each: 3 }.into());
@@ -189,8 +189,15 @@ fn add(mesh: &Mesh, diffuse: [f32; 3], model: &mut Model) -> Result<(), Problem>
     Ok(())
 }
 
-/// Takes a mesh's colours in: red, green, blue and opacity.
-fn add_colours(mesh: &Mesh, model: &mut Model, first: usize, vertices: usize) -> Result<(), Problem> {
+/// Takes a mesh's colours in: red, green, blue and opacity; without any, its vertices have its material's beside
+/// another mesh's that has some.
+fn add_colours(
+    mesh: &Mesh,
+    diffuse: [f32; 3],
+    model: &mut Model,
+    first: usize,
+    vertices: usize,
+) -> Result<(), Problem> {
     let colours = mesh.colors.as_deref().unwrap_or_default();
     if !colours.len().is_multiple_of(4) {
         return Err(BabylonProblem::Length { list: "colors", found: colours.len(), each: 4 }.into());
@@ -200,9 +207,9 @@ fn add_colours(mesh: &Mesh, model: &mut Model, first: usize, vertices: usize) ->
         return Err(BabylonProblem::Count { list: "colors", found, vertices }.into());
     }
     if found > 0 || model.colours.is_some() {
-        let all = model.colours.get_or_insert_with(|| vec![PLAIN; first]);
+        let all = model.colours_so_far(first);
         all.extend(colours.chunks_exact(4).map(|parts| colour([parts[0], parts[1], parts[2]])));
-        all.resize(first + vertices, PLAIN);
+        all.resize(first + vertices, diffuse);
     }
     Ok(())
 }

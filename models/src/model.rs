@@ -99,6 +99,20 @@ impl Model {
         }
     }
 
+    /// Returns the vertices' colours, after giving those before `first` their faces' if they had none.
+    pub(crate) fn colours_so_far(&mut self, first: usize) -> &mut Vec<[f32; 3]> {
+        if self.colours.is_none() {
+            let mut colours = vec![PLAIN; first];
+            if let Some(face_colours) = &self.face_colours {
+                for (range, colour) in self.face_ranges().zip(face_colours) {
+                    self.corners[range].iter().for_each(|corner| colours[*corner as usize] = *colour);
+                }
+            }
+            self.colours = Some(colours);
+        }
+        self.colours.get_or_insert_default()
+    }
+
     /// Adds a vertex.
     pub(crate) fn push_vertex(&mut self, position: [f64; 3]) -> Result<(), Problem> {
         if self.positions.len() >= VERTICES_MAX {

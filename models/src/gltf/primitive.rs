@@ -8,7 +8,7 @@ use super::GltfProblem;
 use super::accessor::Elements;
 use super::node::Placed;
 use crate::model::colour;
-use crate::{Model, NO_NORMAL, PLAIN, Problem};
+use crate::{Model, NO_NORMAL, Problem};
 
 /// Adds a primitive to the model.
 pub(super) fn add(primitive: &Primitive<'_>, placed: &Placed, blob: &[u8], model: &mut Model) -> Result<(), Problem> {
@@ -50,7 +50,7 @@ pub(super) fn add(primitive: &Primitive<'_>, placed: &Placed, blob: &[u8], model
     let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor();
     let base = [red, green, blue].map(f64::from);
     if colours.is_some() || model.colours.is_some() {
-        let before = colours_so_far(model, first);
+        let before = model.colours_so_far(first);
         before.extend((0..vertices).map(|index| {
             let own = colours.as_ref().map_or([1.0; 3], |colours| colours.get(index));
             framebuffer_colour([0, 1, 2].map(|channel| own[channel] * base[channel]))
@@ -63,20 +63,6 @@ pub(super) fn add(primitive: &Primitive<'_>, placed: &Placed, blob: &[u8], model
 /// glTF's colours are linear, a framebuffer's are sRGB.
 fn framebuffer_colour(linear: [f64; 3]) -> [f32; 3] {
     colour(linear.map(|part| if part <= 0.003_130_8 { 12.92 * part } else { 1.055 * part.powf(1.0 / 2.4) - 0.055 }))
-}
-
-/// Returns the vertices' colours, after giving those before `first` their faces' if they had none.
-fn colours_so_far(model: &mut Model, first: usize) -> &mut Vec<[f32; 3]> {
-    if model.colours.is_none() {
-        let mut colours = vec![PLAIN; first];
-        if let Some(face_colours) = &model.face_colours {
-            for (range, colour) in model.face_ranges().zip(face_colours) {
-                model.corners[range].iter().for_each(|corner| colours[*corner as usize] = *colour);
-            }
-        }
-        model.colours = Some(colours);
-    }
-    model.colours.get_or_insert_default()
 }
 
 /// The order in which a primitive goes through its vertices.

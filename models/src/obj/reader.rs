@@ -61,6 +61,9 @@ struct Ahead {
     line: u64,
 }
 
+/// Stands for the colour of a vertex that has none, until the whole file is read: no colour is below 0.
+const UNCOLOURED: [f32; 3] = [-1.0; 3];
+
 #[derive(Default)]
 struct Builder {
     model: Model,
@@ -102,17 +105,34 @@ impl Builder {
         Ok(())
     }
 
-    /// Keeps the newest vertex's colour; the first colour of the file makes all vertices before it white.
+    /// Keeps the newest vertex's colour.
     fn vertex_colour(&mut self, colour: Option<[f64; 3]>) {
-        const WHITE: [f32; 3] = [1.0; 3];
         let before = self.model.positions.len() - 1;
         match (colour, &mut self.model.colours) {
             (None, None) => {}
-            (None, Some(colours)) => colours.push(WHITE),
+            (None, Some(colours)) => colours.push(UNCOLOURED),
             (Some(colour), colours) => {
-                colours.get_or_insert_with(|| vec![WHITE; before]).push(crate::model::colour(colour));
+                colours.get_or_insert_with(|| vec![UNCOLOURED; before]).push(crate::model::colour(colour));
             }
         }
+    }
+
+    /// Gives vertices without a colour, where others have one, that of a face around them; white without materials.
+    fn colour_the_uncoloured(&mut self) {
+        const WHITE: [f32; 3] = [1.0; 3];
+        let Some(mut colours) = self.model.colours.take() else { return };
+        if let Some(face_colours) = &self.model.face_colours {
+            for (range, face_colour) in self.model.face_ranges().zip(face_colours) {
+                for corner in &self.model.corners[range] {
+                    let colour = &mut colours[*corner as usize];
+                    if *colour == UNCOLOURED {
+                        *colour = *face_colour;
+                    }
+                }
+            }
+        }
+        colours.iter_mut().filter(|colour| **colour == UNCOLOURED).for_each(|colour| *colour = WHITE);
+        self.model.colours = Some(colours);
     }
 
     fn normal(&mut self, text: &str) -> Result<(), Problem> {
@@ -249,6 +269,7 @@ impl Builder {
         if !self.model.corner_normals.is_empty() {
             self.model.corner_normals.resize(self.model.corners.len(), NO_NORMAL);
         }
+        self.colour_the_uncoloured();
         self.model.outline_beside_lines();
         self.model.finish().map_err(|problem| (None, problem))
     }

@@ -222,6 +222,14 @@ fn materials_colour_the_faces_after_them() {
 }
 
 #[test]
+fn a_vertex_without_a_colour_among_those_with_one_has_its_faces_materials() {
+    let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1 0 0 1\nv 9 9 9\n";
+    let text = format!("mtllib a.mtl\n{vertices}usemtl red one\nf 1 2 3\nf 2 3 4\n");
+    let red = [1.0, 0.25, 0.0];
+    assert_eq!(parse(text).expect("a good model").colours, Some(vec![red, red, red, [0.0, 0.0, 1.0], [1.0; 3]]));
+}
+
+#[test]
 fn a_colour_beyond_the_range_is_as_bright_as_can_be() {
     let model = parse("v 0 0 0 1e300 -4 0.5\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a good model");
     assert_eq!(model.colours.map(|colours| colours[0]), Some([1.0, 0.0, 0.5]));

@@ -70,6 +70,17 @@ fn a_material_colours_its_mesh() {
 }
 
 #[test]
+fn colours_of_one_mesh_take_no_other_meshs_material_away() {
+    let materials = "\"materials\":[{\"id\":\"b\",\"diffuse\":[1,0.5,0]}]";
+    let plain = format!("{{\"materialId\":\"b\",{}}}", triangle(0));
+    let coloured = "{\"positions\":[0,0,0,1,0,0,0,1,0],\"colors\":[0,0,1,1,0,0,1,1,0,0,1,1],\"indices\":[0,1,2]}";
+    let meshes = [plain.as_str(), coloured, &plain].join(",");
+    let model = parse(&format!("{{{materials},\"meshes\":[{meshes}]}}")).expect("a good scene");
+    let [orange, blue] = [[1.0, 0.5, 0.0], [0.0, 0.0, 1.0]].map(|colour| [colour; 3]);
+    assert_eq!(model.colours, Some([orange, blue, orange].concat()));
+}
+
+#[test]
 fn a_parent_is_noted() {
     let model = parse(&scene(&format!("{{\"parentId\":\"x\",{}}}", triangle(0)))).expect("a good scene");
     assert_eq!(model.notes, ["meshes have parents, whose place does not count: apply it before exporting"]);
