@@ -10,7 +10,7 @@ use crate::{Model, NO_NORMAL, Problem, ReadError};
 
 /// Reads a model from a file's bytes; `file` is its name in errors.
 ///
-/// A vertex on the border of two blocks comes twice. Edges become lines only where there are no faces.
+/// A vertex on the border of two blocks comes twice. The file's edges are the model's lines.
 ///
 /// # Errors
 ///
@@ -21,9 +21,6 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
     model.face_colours = Some(Vec::new());
     for block in mesh.blocks() {
         add(&mesh, &block, &mut model).map_err(|problem| ReadError::file(file, problem))?;
-    }
-    if !model.corners.is_empty() {
-        model.lines.clear();
     }
     model.finish().map_err(|problem| ReadError::file(file, problem))
 }

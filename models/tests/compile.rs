@@ -149,6 +149,23 @@ fn normals_and_colours_survive_in_eight_bits() {
 }
 
 #[test]
+fn edges_are_there_once_however_often_a_file_becomes_one() {
+    let cube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+                f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+    for (text, edges) in [(cube.to_string(), 12), (format!("{cube}l 1 7\n"), 13)] {
+        let first = compiled(&model(&text), &Options::default());
+        let second = compiled(&back(&first), &Options::default());
+        for (compiled, name) in [(&first, "first"), (&second, "second")] {
+            assert_eq!(compiled.report.edges, edges, "{name}");
+            assert_eq!(back(compiled).lines.len(), edges, "{name}");
+        }
+        // Edges of faces need no vertices of their own: but for the line, the file does not grow.
+        assert_eq!(second.report.stored_vertices, first.report.stored_vertices);
+        assert_eq!(first.report.blocks, 1 + usize::from(edges == 13));
+    }
+}
+
+#[test]
 fn clockwise_faces_are_turned_round_and_their_outlines_stay() {
     let square = model("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 4 3 2 1\n");
     let compiled = compiled(&square, &Options { clockwise: true, ..Options::default() });

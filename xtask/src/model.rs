@@ -19,7 +19,7 @@ const LARGEST_LOG2: i32 = 2;
 pub struct Model {
     positions: Vec<Position>,
     faces: Vec<Face>,
-    /// The model's own lines; without any, its polygons' outlines, each edge once.
+    /// The model's own lines or, without any, its polygons' outlines, each once.
     edges: Vec<[u32; 2]>,
     /// What a stored coordinate is multiplied by to give the file's: 2 to this.
     pub scale_log2: i32,
@@ -76,12 +76,13 @@ impl Model {
                 Face { corners, normal, colour }
             }));
         }
-        let mut edges = source.lines.clone();
+        let in_order = |[from, to]: [u32; 2]| [from.min(to), from.max(to)];
+        let mut edges: Vec<[u32; 2]> = source.lines.iter().copied().map(in_order).collect();
         if edges.is_empty() {
-            edges = source.outlines().map(|[from, to]| [from.min(to), from.max(to)]).collect();
-            edges.sort_unstable();
-            edges.dedup();
+            edges = source.outlines().map(in_order).collect();
         }
+        edges.sort_unstable();
+        edges.dedup();
         Ok(Self { positions, faces, edges, scale_log2 })
     }
 
@@ -130,4 +131,25 @@ pub fn face_normal([a, b, c]: [[f64; 3]; 3]) -> [i16; 3] {
     let normal = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| u[i] * v[j] - u[j] * v[i]);
     let length = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
     normal.map(|part| if length > 0.0 { (part / length * 16_384.0).round() as i16 } else { 0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+        f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+
+    #[test]
+    fn every_edge_is_drawn_once_whatever_file_it_comes_from() {
+        for (text, edges) in [(CUBE.to_string(), 12), (format!("{CUBE}l 1 7\nl 7 1\n"), 13)] {
+            let name = Path::new("cube.obj");
+            let source = models::obj::parse_obj(text.as_bytes(), name, |_| Ok(None)).expect("a good model");
+            let file = compile(&source, &Options::default()).expect("it compiles").bytes;
+            let again = models::mesh_file::parse(&file, Path::new("cube.mesh")).expect("a good file");
+            for source in [source, again] {
+                assert_eq!(Model::new(&source).expect("of a usual size").edges().len(), edges);
+            }
+        }
+    }
 }

@@ -4,12 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use mesh_format::{BlockData, EDGES_MAX, FACES_MAX, VERTICES_MAX};
 
-use super::surface::{FaceLook, Surface, Vertex};
+use super::surface::{FaceLook, Surface, Vertex, ends};
 
-/// Returns the blocks of a surface's triangles, taken in `order`. Outlines are edges if the surface has no lines.
+/// Returns the blocks of a surface's triangles, taken in `order`, with those of its lines that are their sides.
 pub(super) fn of_faces(surface: &Surface, order: &[u32]) -> Vec<BlockData> {
     let mut cutter = Cutter::new(surface);
-    let outlined = surface.lines.is_empty();
     let mut edges = HashSet::new();
     for face in order {
         let (corners, look) = (surface.faces[*face as usize], surface.looks[*face as usize]);
@@ -19,13 +18,12 @@ pub(super) fn of_faces(surface: &Surface, order: &[u32]) -> Vec<BlockData> {
         let FaceLook { normal, colour, outline } = look;
         cutter.block.face_normals.push(normal);
         cutter.block.face_colours.push(colour);
-        if !outlined {
-            continue;
-        }
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             // By position: where looks change, an edge's two faces have vertices of their own.
-            let ends = [from, to].map(|end| surface.vertices[corners[end] as usize].position);
-            if outline[from] && edges.insert([ends[0].min(ends[1]), ends[0].max(ends[1])]) {
+            let [start, end] = [from, to].map(|end| surface.vertices[corners[end] as usize].position);
+            let ends = ends(start, end);
+            let is_edge = surface.sides.as_ref().map_or(outline[from], |sides| sides.contains(&ends));
+            if is_edge && edges.insert(ends) {
                 cutter.block.edges.push([local[from], local[to]]);
             }
         }
@@ -33,7 +31,7 @@ pub(super) fn of_faces(surface: &Surface, order: &[u32]) -> Vec<BlockData> {
     cutter.finish()
 }
 
-/// Returns the blocks of a surface's own lines.
+/// Returns the blocks of the lines that are no triangle's side.
 pub(super) fn of_lines(surface: &Surface) -> Vec<BlockData> {
     let mut cutter = Cutter::new(surface);
     for ends in &surface.lines {

@@ -30,6 +30,14 @@ pub(super) struct FaceLook {
     pub(super) outline: [bool; 3],
 }
 
+/// A line by its ends' positions, the lesser first.
+pub(super) type Ends = [[u16; 3]; 2];
+
+/// Returns the line between two positions.
+pub(super) fn ends(from: [u16; 3], to: [u16; 3]) -> Ends {
+    [from.min(to), from.max(to)]
+}
+
 /// A model's triangles and lines.
 #[derive(Debug, Default)]
 pub(super) struct Surface {
@@ -37,8 +45,10 @@ pub(super) struct Surface {
     /// Corners, counter-clockwise from outside.
     pub(super) faces: Vec<[u32; 3]>,
     pub(super) looks: Vec<FaceLook>,
-    /// Lines that the model has itself, each once; without any the faces' outlines are its edges.
+    /// Lines that the model has itself and that are no triangle's side, each once.
     pub(super) lines: Vec<[u32; 2]>,
+    /// The triangles' sides that are lines of the model; `None` without lines: the outlines are its edges then.
+    pub(super) sides: Option<HashSet<Ends>>,
     /// Triangles without area.
     pub(super) left_out: usize,
     indices: HashMap<Vertex, u32>,
@@ -91,14 +101,24 @@ impl Surface {
     }
 
     fn add_lines(&mut self, model: &Model, numbers: &[[u16; 3]]) {
+        if model.lines.is_empty() {
+            return;
+        }
+        let position = |vertex: u32| self.vertices[vertex as usize].position;
+        let sides = self.faces.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]);
+        let sides: HashSet<Ends> = sides.map(|[from, to]| ends(position(from), position(to))).collect();
         let mut seen = HashSet::new();
-        for ends in &model.lines {
-            let [from, to] = ends.map(|end| numbers[end as usize]);
-            if from != to && seen.insert([from.min(to), from.max(to)]) {
+        for line in &model.lines {
+            let [from, to] = line.map(|end| numbers[end as usize]);
+            if from != to && seen.insert(ends(from, to)) && !sides.contains(&ends(from, to)) {
                 // Beside faces, what a line's vertices look like is not looked at; all have the same.
-                let ends = [from, to].map(|position| self.index(Vertex { position, normal: None, colour: None }));
-                self.lines.push(ends);
+                let line = [from, to].map(|position| self.index(Vertex { position, normal: None, colour: None }));
+                self.lines.push(line);
             }
+        }
+        if !seen.is_empty() {
+            seen.retain(|line| sides.contains(line));
+            self.sides = Some(seen);
         }
     }
 
