@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow, bail};
 use fixed::types::I4F28;
-use geometry::VertexLook;
-use geometry::look::looks_of_faces;
 use geometry::mesh::{Face, Mesh, Position, Winding};
 use models::Kind;
 use models::compile::{Options, compile};
@@ -92,14 +90,6 @@ impl Model {
     /// When a face names a missing corner, which the reader of the file has ruled out.
     pub fn mesh(&self) -> anyhow::Result<Mesh<'_>> {
         Mesh::new(&self.positions, &self.faces, Winding::CounterClockwise).context("the model is malformed")
-    }
-
-    /// Returns what each vertex looks like: the mean of the faces around it.
-    pub fn looks(&self, mesh: &Mesh<'_>) -> Vec<VertexLook> {
-        let mut looks = vec![VertexLook::default(); self.positions.len()];
-        // Both buffers are as long as they must be.
-        let _ = looks_of_faces(mesh, &mut looks, &mut vec![0; self.positions.len()]);
-        looks
     }
 
     /// Returns the model's lines, or its polygons' edges, each once.

@@ -2,6 +2,7 @@
 
 pub mod camera;
 pub mod mvp;
+mod smooth;
 
 use anyhow::Context;
 use firmware::style::Style;
@@ -11,8 +12,7 @@ use fpga_regs::screen::{DEPTH_FAR, Rgb332};
 use fpga_regs::{Renderer, Timeouts};
 use geometry::pipeline::DrawStatistics;
 use geometry::{
-    Culling, DirectionalLight, Drawn, LitColour, Matrix, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed,
-    Unlit,
+    Culling, DirectionalLight, Drawn, Matrix, ObjectLight, ScreenTransform, ScreenVertex, Sink, Transformed, Unlit,
 };
 
 use crate::model::Model;
@@ -56,11 +56,11 @@ pub struct Rendered {
     pub depth: Vec<u16>,
 }
 
-/// Draws a model.
+/// Draws a model that was made of `source`.
 ///
 /// # Errors
-/// When the model is malformed or the software model refuses the words: mistakes of this program.
-pub fn render(model: &Model, view: &View) -> anyhow::Result<Rendered> {
+/// When the model is malformed, cannot be drawn smooth, or the software model refuses the words: mistakes of this program.
+pub fn render(source: &models::Model, model: &Model, view: &View) -> anyhow::Result<Rendered> {
     let mesh = model.mesh()?;
     let transform = ScreenTransform::new(&view.model_to_clip, &mesh);
     let light = ObjectLight::new(&light(), &view.model);
@@ -71,7 +71,7 @@ pub fn render(model: &Model, view: &View) -> anyhow::Result<Rendered> {
         triangles: Vec::new(),
     };
     let transformed = Transformed::new(&mesh, &transform, &mut cache)?;
-    let statistics = draw_styled(model, view, &transformed, &light, &mut recorder)?;
+    let statistics = draw_styled(source, model, view, &transformed, &light, &mut recorder)?;
     let Recorder { mut words, triangles, .. } = recorder;
     words.extend(swap());
     let (picture, depth) = picture_of(&words)?;
@@ -80,23 +80,18 @@ pub fn render(model: &Model, view: &View) -> anyhow::Result<Rendered> {
 
 /// Draws in the view's style; a model of lines as lines.
 fn draw_styled(
+    source: &models::Model,
     model: &Model,
     view: &View,
     transformed: &Transformed<'_>,
     light: &ObjectLight,
     recorder: &mut Recorder,
 ) -> anyhow::Result<DrawStatistics> {
-    let mesh = model.mesh()?;
     let style = if model.is_wire() { Style::Wire } else { view.style };
     let lines = |recorder: &mut Recorder| transformed.draw_lines(model.edges(), &Style::LINES, recorder);
     Ok(match style {
         Style::Flat => transformed.draw(light, view.culling, recorder),
-        Style::Smooth => {
-            let looks = model.looks(&mesh);
-            let mut lit = vec![LitColour::default(); looks.len()];
-            let lit = transformed.light_vertices(&looks, light, &mut lit)?;
-            transformed.draw_smooth(&lit, view.culling, recorder)
-        }
+        Style::Smooth => smooth::draw(source, model.scale_log2, view, light, recorder)?,
         Style::Wire => lines(recorder),
         Style::HiddenLines => {
             let hiding = transformed.draw_unlit(Unlit::HIDING, view.culling, recorder);
@@ -179,7 +174,33 @@ mod tests {
             culling,
             style,
         };
-        render(&model, &view).expect("it draws")
+        render(&obj, &model, &view).expect("it draws")
+    }
+
+    #[test]
+    fn smooth_faces_have_the_colours_and_the_normals_of_their_file() {
+        // A square in front of the eye, whose corners are red and whose normals lean away from the light.
+        let square = "v -1 -1 0 C\nv 1 -1 0 C\nv 1 1 0 C\nv -1 1 0 C\nvn 0 0 1\nvn 0.6 -0.8 0\nf 1N 2N 3N 4N\n";
+        let middle = |colour: &str, normal: &str| {
+            let text = square.replace(" C", colour).replace('N', normal);
+            let obj = models::obj::parse_obj(text.as_bytes(), Path::new("s.obj"), |_| Ok(None)).expect("a model");
+            let model = Model::new(&obj).expect("of a usual size");
+            let fit = Fit::new(&obj.positions, [0.0; 3]);
+            let view = View {
+                model_to_clip: camera::to_matrix(&fit.model_to_clip(), model.scale_log2),
+                model: fit.rotation_matrix(),
+                culling: Culling::BackFaces,
+                style: Style::Smooth,
+            };
+            let rendered = render(&obj, &model, &view).expect("it draws");
+            assert_eq!(rendered.statistics.submitted, 2);
+            rendered.triangles[0].colour
+        };
+        let [plain, bright, dark] = [("", ""), (" 1 0 0", "//1"), (" 1 0 0", "//2")].map(|(c, n)| middle(c, n));
+        assert!(plain[0] > 80 && plain[0] == plain[1], "{plain:?}");
+        assert!(bright[0] > 100 && bright[1..] == [0, 0], "{bright:?}");
+        // A quarter of the light comes from everywhere.
+        assert!((60..70).contains(&dark[0]) && dark[1..] == [0, 0], "{dark:?}");
     }
 
     #[test]

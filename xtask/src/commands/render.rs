@@ -38,7 +38,7 @@ pub fn run(arguments: &RenderArguments) -> anyhow::Result<()> {
     };
     let model_to_clip = to_matrix(&model_to_clip, model.scale_log2);
     let view = View { model_to_clip, model: turned, culling, style: arguments.style };
-    let rendered = render(&model, &view)?;
+    let rendered = render(&source, &model, &view)?;
     write_png(&arguments.output, &rendered.picture)?;
     if let Some(path) = &arguments.dump {
         write(path, &to_bytes(&rendered.words))?;
