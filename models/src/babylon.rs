@@ -9,9 +9,11 @@
 //! Babylon's space is left-handed: z is turned over here, and its clockwise faces are counter-clockwise then.
 
 use std::fmt;
+use std::marker::PhantomData;
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::de::{Error as _, IgnoredAny, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use crate::error::quoted;
 use crate::model::{colour, direction};
@@ -84,11 +86,50 @@ impl fmt::Display for BabylonProblem {
     }
 }
 
+/// Most meshes, and most materials, of a scene: an empty one takes hundreds of times what it has in the file.
+pub const ITEMS_MAX: usize = 1 << 16;
+
 #[derive(Deserialize)]
 struct Scene {
-    meshes: Vec<Mesh>,
+    meshes: Items<Mesh>,
     #[serde(default)]
-    materials: Vec<Material>,
+    materials: Items<Material>,
+}
+
+/// No more than [`ITEMS_MAX`] of a list.
+struct Items<T>(Vec<T>);
+
+impl<T> Default for Items<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Items<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_seq(ItemsVisitor(PhantomData))
+    }
+}
+
+struct ItemsVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for ItemsVisitor<T> {
+    type Value = Items<T>;
+
+    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str("a list")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Items<T>, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = list.next_element()? {
+            if items.len() >= ITEMS_MAX {
+                return Err(A::Error::custom(format!("more than {ITEMS_MAX} meshes or materials, join some")));
+            }
+            items.push(item);
+        }
+        Ok(Items(items))
+    }
 }
 
 #[derive(Deserialize)]
@@ -114,7 +155,8 @@ struct Mesh {
     rotation: Option<[f64; 3]>,
     rotation_quaternion: Option<[f64; 4]>,
     position: Option<[f64; 3]>,
-    parent_id: Option<serde_json::Value>,
+    /// `None` for null as well.
+    parent_id: Option<IgnoredAny>,
 }
 
 /// Reads a model from a file's bytes; `file` is its name in errors.
@@ -131,14 +173,14 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
         ReadError::line(file, error.line() as u64, BabylonProblem::Json { reason })
     })?;
     let mut model = Model::empty();
-    for (number, mesh) in scene.meshes.iter().enumerate() {
+    for (number, mesh) in scene.meshes.0.iter().enumerate() {
         let name = || format!("mesh {number} `{}`", quoted(mesh.name.as_deref().unwrap_or_default()));
-        let material = scene.materials.iter().find(|material| Some(&material.id) == mesh.material_id.as_ref());
+        let material = scene.materials.0.iter().find(|material| Some(&material.id) == mesh.material_id.as_ref());
         let diffuse = material.and_then(|material| material.diffuse);
         add(mesh, diffuse.map_or(PLAIN, colour), &mut model)
             .map_err(|problem| ReadError::part(file, name(), problem))?;
     }
-    if scene.meshes.iter().any(|mesh| mesh.parent_id.as_ref().is_some_and(|parent| !parent.is_null())) {
+    if scene.meshes.0.iter().any(|mesh| mesh.parent_id.is_some()) {
         model.notes.push("meshes have parents, whose place does not count: apply it before exporting".into());
     }
     model.finish().map_err(|problem| ReadError::file(file, problem))

@@ -19,6 +19,9 @@ use ::gltf::{Document, json};
 
 use crate::{Model, ReadError};
 
+/// Most nodes, meshes, accessors and other objects of a file's JSON, together.
+pub const PARTS_MAX: usize = 1 << 20;
+
 /// What only a glTF file can have wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -34,6 +37,11 @@ pub enum GltfProblem {
     Json {
         /// The reason.
         reason: String,
+    },
+    /// So many parts that even empty ones would take more memory than any model.
+    TooManyParts {
+        /// Parts that there are: objects of the JSON.
+        parts: usize,
     },
     /// A buffer in another file.
     ExternalBuffer {
@@ -94,6 +102,9 @@ impl fmt::Display for GltfProblem {
             Self::NotBinary => out.write_str("is not binary glTF: export the scene as one .glb file"),
             Self::Container { reason } => write!(out, "{reason}: copy or export the file again"),
             Self::Json { reason } => write!(out, "{reason}: export the scene as .glb again"),
+            Self::TooManyParts { parts } => {
+                write!(out, "{parts} nodes, meshes and other parts, at most {PARTS_MAX} are read: join some")
+            }
             Self::ExternalBuffer { buffer } => {
                 write!(out, "buffer {buffer} lies in another file: export the scene as one .glb file")
             }
@@ -130,6 +141,10 @@ pub fn parse(bytes: &[u8], file: &Path) -> Result<Model, ReadError> {
         return Err(ReadError::file(file, GltfProblem::NotBinary));
     }
     let (json, blob) = container::parts(bytes).map_err(|problem| ReadError::file(file, problem))?;
+    let parts = json.iter().filter(|byte| **byte == b'{').count();
+    if parts > PARTS_MAX {
+        return Err(ReadError::file(file, GltfProblem::TooManyParts { parts }));
+    }
     let failed = |error| ReadError::file(file, problem(error));
     let root = json::deserialize::from_slice(json).map_err(|error| failed(::gltf::Error::Deserialize(error)))?;
     check_positions(&root).map_err(|problem| ReadError::file(file, problem))?;

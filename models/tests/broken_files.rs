@@ -32,7 +32,9 @@ struct Kind {
 
 #[test]
 fn broken_files_are_read_or_named_within_bounded_memory() {
-    for kind in [obj_kind(), stl_text(), stl_binary(), babylon_kind(), gltf_kind(), rom_kind(), mesh_kind()] {
+    for kind in
+        [obj_kind(), materials_kind(), stl_text(), stl_binary(), babylon_kind(), gltf_kind(), rom_kind(), mesh_kind()]
+    {
         let Kind { name, parse, good, alphabet, mend } = &kind;
         assert!(parse(good, Path::new(name)).is_ok(), "{name}: {:?}", parse(good, Path::new(name)).err());
         let mut random = Rng::with_seed(1);
@@ -69,6 +71,32 @@ fn broken_files_are_read_or_named_within_bounded_memory() {
         }
         assert!((FILES / 100..FILES * 9 / 10).contains(&accepted), "{name}: both outcomes, {accepted} accepted");
     }
+    for (name, parse, bytes) in many_empty_parts() {
+        let before = MEMORY.current_usage();
+        MEMORY.reset_peak_usage();
+        let outcome = parse(&bytes, Path::new(name));
+        let taken = MEMORY.peak_usage().saturating_sub(before);
+        println!("{name} of {} bytes: {taken} bytes, {:?}", bytes.len(), outcome.is_ok());
+        assert!(taken <= MEMORY_BASE + MEMORY_PER_BYTE * bytes.len(), "{name}: {taken} for {}", bytes.len());
+    }
+}
+
+/// Files of as many parts without anything in them as there may be, and of one more.
+fn many_empty_parts() -> Vec<(&'static str, Parse, Vec<u8>)> {
+    let list = |count: usize| vec!["{}"; count].join(",");
+    let scene = |count| format!("{{\"meshes\":[{}]}}", list(count)).into_bytes();
+    let nodes = |count| {
+        let mut bytes = b"glTF\x02\0\0\0\0\0\0\0\0\0\0\0JSON".to_vec();
+        bytes.extend(format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}]}}", list(count)).bytes());
+        mend_gltf(&mut bytes);
+        bytes
+    };
+    vec![
+        ("m.babylon", babylon::parse, scene(babylon::ITEMS_MAX)),
+        ("m.babylon", babylon::parse, scene(babylon::ITEMS_MAX + 1)),
+        ("m.glb", gltf::parse, nodes(gltf::PARTS_MAX - 2)),
+        ("m.glb", gltf::parse, nodes(gltf::PARTS_MAX)),
+    ]
 }
 
 fn mutated(good: &[u8], alphabet: &[u8], random: &mut Rng) -> Vec<u8> {
@@ -143,6 +171,22 @@ fn obj_kind() -> Kind {
         },
         good: good.into_bytes(),
         alphabet: b"vf \n\r\\/#-+.e0123456789naitlmtu\t",
+        mend: |_| {},
+    }
+}
+
+fn materials_kind() -> Kind {
+    let good = "# two\nnewmtl m\r\nKa 1 1 1\nKd 1 0.5 -3e-1\nillum 2\nmap_Kd a b.png\nnewmtl grey one\nKd .5\n\
+                Kd spectral a.rfl\nnewmtl n\nKd 0 \\\n 1 1 # end\n";
+    Kind {
+        name: "a.mtl",
+        parse: |bytes, file| {
+            let materials = obj::parse_materials(bytes, file)?;
+            let model = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\nusemtl n\nf 3 2 1\n";
+            obj::parse_obj(model.as_bytes(), file, |_| Ok(Some(materials.clone())))
+        },
+        good: good.into(),
+        alphabet: b"newmtlKd# \n\r\\0123456789.-e\t",
         mend: |_| {},
     }
 }

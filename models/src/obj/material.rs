@@ -16,7 +16,11 @@ pub type Materials = HashMap<String, [f32; 3]>;
 const DIFFUSE: [f32; 3] = [0.8; 3];
 
 /// Reads materials from `source`; `file` is its name in errors.
-pub(super) fn parse(source: impl BufRead, file: &Path) -> Result<Materials, ReadError> {
+///
+/// # Errors
+///
+/// The first thing that is wrong, with its line.
+pub fn parse(source: impl BufRead, file: &Path) -> Result<Materials, ReadError> {
     let mut statements = Statements::new(source);
     let mut materials = Materials::new();
     let mut current: Option<String> = None;

@@ -1,8 +1,8 @@
 //! Reads Wavefront OBJ models.
 //!
 //! Taken: `v x y z [w] [r g b]`, `vn x y z`, `f` with `v`, `v/t`, `v//n` or `v/t/n` corners and `l`
-//! with `v` or `v/t`, counted from 1 or, when negative, back from the newest; `mtllib` and `usemtl`,
-//! of whose materials the diffuse colour `Kd` counts. A backslash at the end of such a line
+//! with `v` or `v/t`, counted from 1 or, when negative, back from the newest; `mtllib`, of one name or several,
+//! and `usemtl`, of whose materials the diffuse colour `Kd` counts. A backslash at the end of such a line
 //! continues it. All other lines (`vt`, `o`, `g`, `s`, `p`, curves, comments) are passed over, and so
 //! are `w` and the texture numbers.
 //!
@@ -21,7 +21,7 @@ use std::io::{self, BufReader};
 use std::path::Path;
 
 pub use error::ObjProblem;
-pub use material::Materials;
+pub use material::{Materials, parse as parse_materials};
 pub use reader::parse_obj;
 
 use crate::{Model, Problem, ReadError};
@@ -43,7 +43,8 @@ pub fn read_obj(path: &Path) -> Result<Model, ReadError> {
         let library = path.with_file_name(name);
         match open(&library) {
             Ok(source) => material::parse(source, &library).map(Some),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            // Several names may be too long for one.
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::InvalidFilename) => Ok(None),
             Err(cause) => Err(ReadError::file(&library, Problem::Unreadable { cause })),
         }
     })

@@ -41,7 +41,7 @@ pub fn parse_obj(
                 Ok(())
             }
             Keyword::Library => {
-                builder.add_library(text.trim(), library(text.trim())?);
+                builder.add_libraries(text.trim(), &mut library)?;
                 Ok(())
             }
             Keyword::NewMaterial | Keyword::Diffuse => Ok(()),
@@ -59,6 +59,17 @@ pub fn parse_obj(
 struct Ahead {
     index: i64,
     line: u64,
+}
+
+/// Notes that are kept.
+const NOTES_MAX: usize = 8;
+
+/// Reads a file of materials by its name.
+type Library<'a> = dyn FnMut(&str) -> Result<Option<Materials>, ReadError> + 'a;
+
+/// Returns whether a file of this name lies outside of the model's folder, by the rules of any system.
+fn leads_out(name: &str) -> bool {
+    name.starts_with(['/', '\\']) || name.get(1..2) == Some(":") || name.split(['/', '\\']).any(|part| part == "..")
 }
 
 /// Stands for the colour of a vertex that has none, until the whole file is read: no colour is below 0.
@@ -237,17 +248,43 @@ impl Builder {
         }
     }
 
-    fn add_library(&mut self, name: &str, materials: Option<Materials>) {
-        match materials {
-            Some(materials) => self.materials.extend(materials),
-            None => {
-                self.note(format!("no file of materials `{}` beside the model: faces are grey", quoted(name)));
+    /// Adds the materials of the file of this name or, where there is none, of the files that its words name.
+    fn add_libraries(&mut self, names: &str, library: &mut Library<'_>) -> Result<(), ReadError> {
+        if self.add_library(names, library)? {
+            return Ok(());
+        }
+        let mut missing = Vec::new();
+        let mut found = false;
+        for name in names.split_ascii_whitespace() {
+            if self.add_library(name, library)? {
+                found = true;
+            } else if missing.len() < NOTES_MAX {
+                missing.push(name);
             }
         }
+        // A name with spaces is one name.
+        for name in if found { missing } else { vec![names] } {
+            self.note(if leads_out(name) {
+                let name = quoted(name);
+                format!(
+                    "file of materials `{name}` is not looked for, its name leads elsewhere: put it beside the model"
+                )
+            } else {
+                format!("no file of materials `{}` beside the model: faces are grey", quoted(name))
+            });
+        }
+        Ok(())
+    }
+
+    /// Adds a file's materials; returns whether there is one.
+    fn add_library(&mut self, name: &str, library: &mut Library<'_>) -> Result<bool, ReadError> {
+        let materials = if leads_out(name) { None } else { library(name)? };
+        let found = materials.is_some();
+        self.materials.extend(materials.into_iter().flatten());
+        Ok(found)
     }
 
     fn note(&mut self, note: String) {
-        const NOTES_MAX: usize = 8;
         if self.model.notes.len() < NOTES_MAX && !self.model.notes.contains(&note) {
             self.model.notes.push(note);
         }

@@ -222,6 +222,37 @@ fn materials_colour_the_faces_after_them() {
 }
 
 #[test]
+fn one_statement_may_name_several_files_of_materials() {
+    for (names, notes) in [
+        ("a.mtl b.mtl", vec!["no file of materials `b.mtl` beside the model: faces are grey"]),
+        ("b.mtl  a.mtl", vec!["no file of materials `b.mtl` beside the model: faces are grey"]),
+        ("a.mtl", vec![]),
+    ] {
+        let text = format!("mtllib {names}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl grey\nf 1 2 3\n");
+        let model = parse(text).expect("a good model");
+        assert_eq!(
+            (model.face_colours, model.notes),
+            (Some(vec![[0.5; 3]]), notes.iter().map(|n| n.to_string()).collect())
+        );
+    }
+    let model = parse(format!("mtllib my model.mtl\n{TRIANGLE}")).expect("a good model");
+    assert_eq!(model.notes, ["no file of materials `my model.mtl` beside the model: faces are grey"]);
+}
+
+#[test]
+fn a_file_of_materials_elsewhere_is_not_read() {
+    for name in ["/dev/zero", "../a.mtl", "b/../../a.mtl", "..\\a.mtl", "C:\\a.mtl", "\\\\host\\a.mtl"] {
+        let text = format!("mtllib {name}\n{TRIANGLE}");
+        let model = parse_obj(text.as_bytes(), Path::new("m.obj"), |name| panic!("{name} is read"));
+        let note = format!(
+            "file of materials `{}` is not looked for, its name leads elsewhere: put it beside the model",
+            crate::error::quoted(name)
+        );
+        assert_eq!(model.expect("a good model").notes, [note]);
+    }
+}
+
+#[test]
 fn a_vertex_without_a_colour_among_those_with_one_has_its_faces_materials() {
     let vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1 0 0 1\nv 9 9 9\n";
     let text = format!("mtllib a.mtl\n{vertices}usemtl red one\nf 1 2 3\nf 2 3 4\n");

@@ -87,6 +87,12 @@ fn a_parent_is_noted() {
 }
 
 #[test]
+fn a_parent_that_is_null_is_none() {
+    let model = parse(&scene(&format!("{{\"parentId\":null,{}}}", triangle(0)))).expect("a good scene");
+    assert!(model.notes.is_empty());
+}
+
+#[test]
 fn every_error_names_its_place_value_and_remedy() {
     let again = "export the scene as .babylon again";
     let mesh = |content: &str| scene(&format!("{{\"name\":\"b\\u001b\",{content}}}"));
@@ -134,6 +140,10 @@ fn every_error_names_its_place_value_and_remedy() {
         (
             mesh("\"positions\":[1e308,0,0],\"scaling\":[10,1,1]"),
             format!("{at}`inf` is no finite number: export the model again or delete the vertex"),
+        ),
+        (
+            scene(&"{},".repeat(65_537)),
+            format!("m.babylon:1: more than 65536 meshes or materials, join some (column 196639): {again}"),
         ),
         (scene(""), "m.babylon: no face and no line among 0 vertices: export the model as polygons".into()),
     ];

@@ -132,6 +132,14 @@ fn nodes_hang_as_deep_as_any_scene_s_and_no_deeper() {
 }
 
 #[test]
+fn more_parts_than_any_scene_has_are_named() {
+    let nodes = vec!["{}"; gltf::PARTS_MAX].join(",");
+    let file = glb(&format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{nodes}]}}"), &[]);
+    let expected = "m.glb: 1048578 nodes, meshes and other parts, at most 1048576 are read: join some";
+    assert_eq!(parse(&file).expect_err("too many").to_string(), expected);
+}
+
+#[test]
 fn every_error_names_its_place_value_and_remedy() {
     let good = json(NODE, QUAD);
     let at = "m.glb: mesh 0 `q`, primitive 0: ";
