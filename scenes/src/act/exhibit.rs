@@ -49,11 +49,13 @@ impl Exhibit {
         Self { subject: Subject::Found, distance: I16F16::lit("3"), elevation: I16F16::lit("20"), ..Self::TORUS };
 
     /// Returns the projection of what lies around a point at `distance` from the eye and reaches `reach` from
-    /// it. Where depth is shown it has as many levels as can be: near and far planes close in on the model.
+    /// it, which the near plane cuts only where it all but touches the eye. Where depth is shown it has as many
+    /// levels as can be: near and far planes close in on the model.
     pub fn lens(manner: Manner, distance: I32F32, reach: I32F32) -> Matrix {
+        let front = (distance - reach).max(const { I32F32::lit("0.1") });
         let planes = match manner.style {
-            Style::DepthGrey => ((distance - reach).max(const { I32F32::lit("0.1") }), distance + reach),
-            _ => (I32F32::ONE, I32F32::from_num(10)),
+            Style::DepthGrey => (front, distance + reach),
+            _ => (front.min(I32F32::ONE), I32F32::from_num(10)),
         };
         lens(manner.projection, distance, planes)
     }
@@ -83,4 +85,27 @@ impl Perform for Exhibit {
 /// Returns how the pad's tilt turns a model.
 pub fn tilted(tilt: Tilt) -> Matrix {
     Matrix::rotation_x(Angle::from_degrees(tilt.pitch)).times(&Matrix::rotation_z(Angle::from_degrees(tilt.roll)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::style::Projection;
+
+    #[test]
+    fn what_comes_close_is_not_cut_open() {
+        for (projection, style) in [Projection::Perspective, Projection::Orthographic]
+            .into_iter()
+            .flat_map(|projection| Style::ALL.iter().map(move |style| (projection, *style)))
+        {
+            for tenths in 15..80 {
+                let distance = I32F32::from_num(tenths) / 10;
+                let lens = Exhibit::lens(Manner { style, projection }, distance, REACH);
+                // A hundredth behind the nearest that the model may reach, or that is seen.
+                let nearest = (distance - REACH).max(I32F32::lit("0.1")) + I32F32::lit("0.01");
+                let at = |row: usize| lens.rows[row][3] - lens.rows[row][2] * nearest;
+                assert!(at(2) + at(3) > 0, "{projection:?}, {style:?}: {nearest} is cut off at {distance}");
+            }
+        }
+    }
 }
