@@ -29,7 +29,7 @@
 //! | next scene | Start | Enter, keypad Enter | a press |
 //! | previous scene | Select | Backspace | a press |
 //! | reset pose | R3 (push the right stick) | R | the tilt is level again, at once; pan, turn and zoom as at the start |
-//! | centre | L3 (push the left stick) | F | pan, turn and zoom are as at the start |
+//! | centre | L3 (push the left stick) | F | pan, turn and zoom are as at the start; nothing in the game, which the stick steers |
 //! | next style | Triangle | Tab | flat, smooth, wireframe, hidden lines, depth as grey |
 //! | projection | Square | V | perspective or orthographic |
 //! | other mode | Circle; R1 while held | C; 2 while held | what the scene has two of: orbit and flight, turning and moving |
@@ -38,7 +38,7 @@
 //! | no effect yet | L1 | 1 | read and reported; the viewer has no use for it yet |
 //!
 //! Freezing, levelling and the turning of the tilt by arrow keys happen in this crate; the effect of
-//! every other control is the viewer's, in `firmware`. The DE1-SoC's own keys and switches do what the
+//! every other control is the viewer's, in `scenes`. The DE1-SoC's own keys and switches do what the
 //! keyboard's do; [`PanelReport`] has the table. Keys typed at a terminal on the serial line are the keyboard's, too
 //! ([`serial::Typed`]).
 //!
