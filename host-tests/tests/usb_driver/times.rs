@@ -1,8 +1,8 @@
 //! How long things take, in the bus's own time.
 
 use dwc2_host::{Config, Pipe, SpeedLimit};
-use embassy_usb_driver::host::{PipeError, UsbPipe};
 use embassy_usb_driver::host::pipe::{In, Interrupt};
+use embassy_usb_driver::host::{PipeError, UsbPipe};
 use usb_model::hub::Hub;
 use usb_model::shared::Shared;
 use usb_model::wire::Speed;
