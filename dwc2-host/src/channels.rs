@@ -16,6 +16,9 @@ use crate::{Fault, PIPES, TransferError};
 const LAST_START_SPLIT: u16 = 3;
 /// What the core may retry by itself in one microframe of a periodic split: Linux, `hcd.c`.
 const SPLIT_RETRIES: u8 = 3;
+/// Turns in a row without an answer after which an interrupt endpoint behind a translator is taken for silent: a quarter
+/// of a second or more.
+const MISSES: u8 = 250;
 
 /// HCSPLT's payload position: all of it at once (it has at most 188 bytes).
 const WHOLE_PAYLOAD: u8 = 3;
@@ -202,10 +205,13 @@ impl State<'_> {
     fn give_up_split(&mut self, index: usize) {
         let Some(slot) = &mut self.slots[index] else { return };
         slot.effort.split = Split::Start;
+        slot.effort.misses = slot.effort.misses.saturating_add(1);
         slot.activity = Activity::Waiting { from: slot.next_turn };
-        let fate = slot.effort.fate;
+        let (fate, misses) = (slot.effort.fate, slot.effort.misses);
         if fate != Fate::Wanted {
             self.end(index, fate.result());
+        } else if misses >= MISSES {
+            self.end(index, Err(TransferError::NoAnswer));
         }
     }
 

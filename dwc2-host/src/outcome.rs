@@ -71,6 +71,11 @@ impl Slot {
     /// The channel that ran `program` halted at `now` for reasons `interrupts`, with `left` undone.
     pub(crate) fn halted(&mut self, program: Program, interrupts: Hcint, left: Hctsiz, now: u64) -> Verdict {
         let outcome = Outcome::of(interrupts);
+        if matches!(outcome, Outcome::Complete | Outcome::Stall | Outcome::WrongToggle)
+            || outcome == Outcome::Nak && self.effort.split != Split::Start
+        {
+            self.effort.misses = 0;
+        }
         let verdict = match outcome {
             Outcome::Complete => self.complete(program, interrupts, left, now),
             Outcome::Stall => Verdict::End(Err(TransferError::Stall)),

@@ -69,8 +69,9 @@ impl State<'_> {
         loop {
             let before = self.phase;
             let over = match before {
-                Phase::Empty | Phase::Ready => false,
-                Phase::Quieten => true,
+                Phase::Ready => false,
+                // What is there already when the port gets its power need not be news.
+                Phase::Empty | Phase::Quieten => true,
                 _ => now >= self.phase_end,
             };
             if !before.started() {

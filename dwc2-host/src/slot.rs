@@ -56,6 +56,8 @@ pub(crate) struct Effort {
     pub(crate) errors: u8,
     /// NAKs in a row that a split met.
     pub(crate) naks: u8,
+    /// Turns in a row in which no complete split brought an answer.
+    pub(crate) misses: u8,
     /// It fails with `Timeout` when it has not moved by then.
     pub(crate) deadline: Option<u64>,
     /// By then its present channel has halted by itself.
@@ -132,6 +134,7 @@ impl Effort {
             fate: Fate::Wanted,
             errors: 0,
             naks: 0,
+            misses: 0,
             deadline: None,
             halts_by: None,
             drained_by: 0,

@@ -88,15 +88,28 @@ async fn transfer<'d, A: UsbHostAllocator<'d>>(
     timeout.no_data_timeout = STAGE_TIMEOUT;
     pipe.set_timeout(timeout);
     let packet = setup.bytes(request.length);
+    let muddle = Muddle { mailbox, way: request.way };
     let outcome = if setup.reads() {
         pipe.control_in(&packet, data).await
     } else {
         pipe.control_out(&packet, data).await.map(|()| data.len())
     };
-    if matches!(outcome, Err(error) if error != PipeError::Stall) {
-        mailbox.set_muddle(request.way);
+    if matches!(outcome, Ok(_) | Err(PipeError::Stall)) {
+        core::mem::forget(muddle);
     }
     outcome.map_err(TransferError::Pipe)
+}
+
+/// What a transfer leaves behind that fails, or is dropped while it is under way.
+struct Muddle<'a> {
+    mailbox: &'a Mailbox,
+    way: Way,
+}
+
+impl Drop for Muddle<'_> {
+    fn drop(&mut self) {
+        self.mailbox.set_muddle(self.way);
+    }
 }
 
 /// Brings the packets of the endpoint that is listened to.

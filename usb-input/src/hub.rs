@@ -47,10 +47,11 @@ enum Stage {
     HubClear {
         changes: u16,
     },
-    /// The translator is told to forget what it holds for a device.
+    /// The translator is told to forget what it holds for a device: first what goes there, then what comes.
     ClearBuffer {
         of: SlotIndex,
         address: u8,
+        input: bool,
     },
     /// A port, by its index, is dealt with.
     Port {
@@ -137,8 +138,8 @@ impl HubTalk {
                 let change = changes.trailing_zeros() as u8;
                 return Ok(link.order(memory, Step::Port, Setup::clear_hub_feature(change, 0)));
             }
-            Stage::ClearBuffer { address, .. } => {
-                return Ok(link.order(memory, Step::Port, Setup::clear_tt_buffer(address)));
+            Stage::ClearBuffer { address, input, .. } => {
+                return Ok(link.order(memory, Step::Port, Setup::clear_tt_buffer(address, input)));
             }
             Stage::Port { index, task } => {
                 let next = self.ports[usize::from(index)].next(link, memory, task);
@@ -161,7 +162,7 @@ impl HubTalk {
         }
         for of in SlotIndex::ALL {
             if let Some(way) = memory.mailbox(of).muddle_of(link.address) {
-                self.stage = Stage::ClearBuffer { of, address: way.address };
+                self.stage = Stage::ClearBuffer { of, address: way.address, input: false };
                 return;
             }
         }
@@ -185,10 +186,14 @@ impl HubTalk {
         if self.ear.answered(link, memory, answer)? {
             return Ok(());
         }
-        if let Stage::ClearBuffer { of, .. } = self.stage {
+        if let Stage::ClearBuffer { of, address, input } = self.stage {
             // A hub at full speed has no translator, and refuses.
-            memory.mailbox(of).set_clear();
-            self.stage = Stage::Rest;
+            self.stage = if input {
+                memory.mailbox(of).set_clear();
+                Stage::Rest
+            } else {
+                Stage::ClearBuffer { of, address, input: true }
+            };
             return Ok(());
         }
         let count = link.succeeded(answer)?;

@@ -200,7 +200,9 @@ impl Mailbox {
 
     /// Says that a transfer by this way went wrong.
     pub(crate) fn set_muddle(&self, way: Way) {
-        self.muddle.set(way.split.is_some().then_some(way));
+        if way.split.is_some() {
+            self.muddle.set(Some(way));
+        }
         self.stir();
     }
 

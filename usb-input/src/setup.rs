@@ -113,9 +113,10 @@ impl Setup {
         Self::new(Self::hub_kind(port), 1, feature as u16, port as u16)
     }
 
-    /// CLEAR_TT_BUFFER of a hub with one translator for all its ports: what it holds for endpoint 0 of a device (§11.24.2.3).
-    pub(crate) const fn clear_tt_buffer(address: u8) -> Self {
-        Self::new(0x23, 8, (address as u16) << 4, 1)
+    /// CLEAR_TT_BUFFER of a hub with one translator for all its ports: what it holds for endpoint 0 of a device, in one
+    /// direction (§11.24.2.3).
+    pub(crate) const fn clear_tt_buffer(address: u8, input: bool) -> Self {
+        Self::new(0x23, 8, (input as u16) << 15 | (address as u16) << 4, 1)
     }
 
     const fn hub_kind(port: u8) -> u8 {
@@ -144,7 +145,8 @@ mod tests {
         assert_eq!(Setup::hub_status(0).bytes(4), [0xA0, 0, 0, 0, 0, 0, 4, 0]);
         assert_eq!(Setup::set_port_feature(8, 3).bytes(0), [0x23, 3, 8, 0, 3, 0, 0, 0]);
         assert_eq!(Setup::clear_hub_feature(20, 3).bytes(0), [0x23, 1, 20, 0, 3, 0, 0, 0]);
-        assert_eq!(Setup::clear_tt_buffer(5).bytes(0), [0x23, 8, 0x50, 0, 1, 0, 0, 0]);
+        assert_eq!(Setup::clear_tt_buffer(5, false).bytes(0), [0x23, 8, 0x50, 0, 1, 0, 0, 0]);
+        assert_eq!(Setup::clear_tt_buffer(5, true).bytes(0), [0x23, 8, 0x50, 0x80, 1, 0, 0, 0]);
         assert_eq!(Setup::clear_halt(0x81).bytes(0), [0x02, 1, 0, 0, 0x81, 0, 0, 0]);
     }
 }

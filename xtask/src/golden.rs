@@ -8,7 +8,6 @@ use crate::demo::Played;
 use crate::paths::workspace_root;
 use crate::picture::{self, Picture};
 use crate::report::{Report, SceneReport};
-use crate::session::ScenePart;
 
 /// Where the demonstration's file lies in the workspace.
 pub const DEMO: &str = "host-tests/golden/demo.json";
@@ -73,17 +72,6 @@ impl From<&Report> for Golden {
 }
 
 impl Golden {
-    /// Returns what a session of these parts must show, each the beginning of a golden scene.
-    #[must_use]
-    pub fn beginning(&self, parts: &[ScenePart]) -> Self {
-        let scene = |part: &ScenePart| {
-            let golden = self.scenes.iter().find(|scene| scene.name == part.title())?;
-            let frames = golden.frame_checksums.iter().take(part.frames.len()).cloned().collect();
-            Some(GoldenScene { name: golden.name.clone(), frame_checksums: frames })
-        };
-        Self { scenes: parts.iter().filter_map(scene).collect() }
-    }
-
     /// Reads a file; `None` when there is none yet.
     ///
     /// # Errors
@@ -147,7 +135,6 @@ impl Golden {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use firmware::scene::Scene;
 
     fn golden(scenes: &[(&str, &[&str])]) -> Golden {
         let scene = |(name, frames): &(&str, &[&str])| GoldenScene {
@@ -155,14 +142,6 @@ mod tests {
             frame_checksums: frames.iter().map(ToString::to_string).collect(),
         };
         Golden { scenes: scenes.iter().map(scene).collect() }
-    }
-
-    #[test]
-    fn a_beginning_has_the_frames_that_are_played() {
-        let one = golden(&[("plate", &["0x1", "0x2"]), ("torus", &["0x3"]), ("tunnel", &["0x4", "0x5"])]);
-        let part = |scene, count| ScenePart { scene, style: None, frames: vec![None; count] };
-        let played = [part(Scene::Plate, 1), part(Scene::Tunnel, 2)];
-        assert_eq!(one.beginning(&played), golden(&[("plate", &["0x1"]), ("tunnel", &["0x4", "0x5"])]));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use core::pin::Pin;
 
-use dwc2_host::{Dwc2, SpeedLimit};
+use dwc2_host::{Dwc2, Fault, SpeedLimit};
 use static_cell::StaticCell;
 use usb_input::{Event, Fallback, Memory, UsbInput};
 
@@ -108,15 +108,21 @@ impl Service {
             return Some(News::FullSpeed);
         }
         if let Some(fault) = self.driver.take_fault() {
+            let signal = matches!(fault, Fault::PortNotEnabled | Fault::PortDisabled | Fault::ChannelStuck { .. });
+            self.fall_back_if(|fallback| signal && fallback.controller_failed());
             return Some(News::Controller(fault));
         }
         let event = self.input.next_event()?;
-        if self.fallback.as_mut().is_some_and(|fallback| fallback.is_due(&event)) {
+        self.fall_back_if(|fallback| fallback.is_due(&event));
+        Some(News::Device(event))
+    }
+
+    fn fall_back_if(&mut self, is_due: impl FnOnce(&mut Fallback) -> bool) {
+        if self.fallback.as_mut().is_some_and(is_due) {
             self.fallback = None;
             self.fell_back = true;
             self.driver.limit_speed(SpeedLimit::Full);
         }
-        Some(News::Device(event))
     }
 
     /// Tells whether the pose is frozen, for a touch of the pad's motor.

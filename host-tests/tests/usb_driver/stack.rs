@@ -40,9 +40,16 @@ impl Known {
 
     /// Tells its translator, if it has one, to forget what it holds for endpoint 0; a full-speed hub refuses.
     pub async fn clear_buffer(&self) {
+        self.clear_half_buffer(false).await;
+        self.clear_half_buffer(true).await;
+    }
+
+    /// Does it for what goes to the device alone, or for what comes.
+    pub async fn clear_half_buffer(&self, input: bool) {
         if let Some(split) = self.split {
             let hub = Self { address: split.hub_addr(), split: None, ..*self };
-            let _ = hub.control(64).control_out(&setup(0x23, 8, u16::from(self.address) << 4, 1, 0), &[]).await;
+            let value = u16::from(input) << 15 | u16::from(self.address) << 4;
+            let _ = hub.control(64).control_out(&setup(0x23, 8, value, 1, 0), &[]).await;
         }
     }
 

@@ -1,8 +1,8 @@
 //! How long things take, in the bus's own time.
 
 use dwc2_host::{Config, Pipe, SpeedLimit};
-use embassy_usb_driver::host::UsbPipe;
 use embassy_usb_driver::host::pipe::{In, Interrupt};
+use embassy_usb_driver::host::{PipeError, UsbPipe};
 use usb_model::hub::Hub;
 use usb_model::shared::Shared;
 use usb_model::wire::Speed;
@@ -140,6 +140,9 @@ fn interrupts_later_than_that_starve_interrupt_splits_and_nothing_else() {
     let (mut host, known) = rig.run(reach(&rig));
     assert!(rig.run_for(100_000, known.reports(8, 4).request_in(&mut [0; 8])).is_none());
     assert_eq!(rig.run(host.status(2)).unwrap().0 & 3, 3);
+    // It is not silent for ever.
+    let silent = rig.run_for(1_000_000, known.reports(8, 1).request_in(&mut [0; 8]));
+    assert_eq!(silent, Some(Err(PipeError::BadResponse)));
     rig.latency.set(2);
     assert_eq!(rig.run(known.reports(8, 4).request_in(&mut [0; 8])), Ok(4));
 }

@@ -24,6 +24,8 @@ struct Pending {
     order: u64,
     /// Bytes that it carried.
     bytes: usize,
+    /// Data comes from the device.
+    input: bool,
     /// The last complete split failed: the start split may be repeated.
     failed: bool,
     /// Complete splits that failed in a row.
@@ -42,7 +44,7 @@ pub(super) struct SplitWatch {
 impl SplitWatch {
     /// The translator was told to forget this endpoint.
     pub fn clear(&mut self, hub: u8, address: u8, endpoint: u8, input: bool) {
-        self.pending.remove(&(hub, address, endpoint, input));
+        self.pending.retain(|key, pending| (key.0, key.1, key.2, pending.input) != (hub, address, endpoint, input));
     }
 }
 
@@ -102,7 +104,8 @@ impl Core {
             let (microframe, order) = (self.frame_index(self.now), self.splits.starts);
             let key = pipe(program, split);
             let failures = self.splits.pending.get(&key).map_or(0, |pending| pending.failures);
-            let pending = Pending { microframe, order, bytes: program.bytes, failed: false, failures };
+            let (bytes, input) = (program.bytes, program.input);
+            let pending = Pending { microframe, order, bytes, input, failed: false, failures };
             self.splits.pending.insert(key, pending);
             if let Start::Setup(packet) = start {
                 self.snoop.setup(program, packet);

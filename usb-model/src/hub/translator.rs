@@ -53,8 +53,7 @@ fn same(a: &Token, b: &Token) -> bool {
 
 impl Engine {
     pub fn clear(&mut self, target: Target, input: bool) {
-        self.buffers
-            .retain(|job| job.token.target != target || job.token.kind != Kind::Control && job.token.input != input);
+        self.buffers.retain(|job| job.token.target != target || job.token.input != input);
     }
 
     pub fn reset(&mut self) {

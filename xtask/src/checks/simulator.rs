@@ -14,9 +14,6 @@ use crate::machine::Simulated;
 use crate::session;
 use crate::simulated::{Build, CRATE, Design, RTL_FEATURES, Simulator};
 
-/// How many frames of each scene are drawn, from its first on: all 204 would take minutes. The plate's cost least.
-const ELF_FRAMES: [usize; 3] = [24, 6, 4];
-const RTL_FRAMES: [usize; 3] = [3, 2, 1];
 /// What names the image to the tests of the crate: the ELF file, and the program on the card.
 const IMAGE: &str = "HALFSPACE_IMAGE";
 const BINARY: &str = "HALFSPACE_BINARY";
@@ -37,28 +34,23 @@ pub(super) fn tests(state: &State) -> anyhow::Result<()> {
 
 /// The demonstration from the ELF file.
 pub(super) fn demonstration(state: &State) -> anyhow::Result<()> {
-    play(state, Design::Model, "simulator-demo", ELF_FRAMES)
+    play(state, Design::Model, "simulator-demo")
 }
 
 /// The same on the FPGA's design; the pictures come from its VGA pins.
 pub(super) fn demonstration_on_the_design(state: &State) -> anyhow::Result<()> {
-    play(state, Design::Rtl, "simulator-demo-rtl", RTL_FRAMES)
+    play(state, Design::Rtl, "simulator-demo-rtl")
 }
 
-/// Plays the first frames of the session's scenes, and compares each picture with the golden one.
-fn play(state: &State, design: Design, folder: &str, frames: [usize; 3]) -> anyhow::Result<()> {
+/// Plays the session, and compares each picture with the golden one.
+fn play(state: &State, design: Design, folder: &str) -> anyhow::Result<()> {
     let golden = Golden::read(golden::DEMO)?.with_context(|| format!("{} is missing", golden::DEMO))?;
-    let mut parts = session::demo()?;
-    for (part, count) in parts.iter_mut().zip(frames) {
-        part.frames.truncate(count);
-    }
-    parts.retain(|part| !part.frames.is_empty());
+    let parts = session::demo()?;
     let image = state.elf(Board::De1Soc)?;
     let simulator = Simulator::prepare(design, false, Build::Tested, &state.progress)?;
     let mut machine = Simulated::start(&simulator, &image, &state.folder(folder))?;
     let played = demo::play(&mut machine, &parts, &state.progress)?;
     golden
-        .beginning(&parts)
         .check(&Golden::from(&played.report))
         .with_context(|| format!("in the DE1-SoC's simulator ({design:?}), from {}", image.display()))
 }

@@ -81,8 +81,10 @@ impl Machine for Host<'_, '_, '_> {
     }
 
     fn receive(&mut self, what: &str) -> anyhow::Result<u8> {
-        // It answers at once or, when the message was lost, not at all.
-        if self.application.board().outgoing.is_empty() {
+        // It answers in the round that takes the last byte in or, when the message was lost, not at all.
+        let mut more = true;
+        while more && self.application.board().outgoing.is_empty() {
+            more = !self.application.board().incoming.is_empty();
             self.application.run_once();
         }
         match self.application.board().outgoing.pop_front() {

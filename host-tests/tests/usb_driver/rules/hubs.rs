@@ -48,3 +48,31 @@ fn tt_not_cleared() {
     });
     assert_broken(&rig, Rule::TtNotCleared);
 }
+
+/// A translator keeps what comes and what goes apart, for a control endpoint too.
+#[test]
+fn tt_half_cleared() {
+    for input in [false, true] {
+        let rig = Rig::new(Config::new());
+        let device = Shared::new(Faulty::new(Gadget::new(Speed::Full)));
+        let mut hub = Hub::new(Speed::High);
+        hub.plug(1, Box::new(device.clone()));
+        rig.plug(hub);
+        rig.run(async {
+            let mut host = HubHost::on_root(&rig).await.unwrap();
+            let known = host.enumerate(&rig, 1, 5).await.unwrap();
+            // After the SETUP, the data that comes.
+            device.lock().break_for(1, 3, Fault::Vanish);
+            let request = setup(0x80, 6, 0x0100, 0, 18);
+            assert!(known.control(64).control_in(&request, &mut [0; 18]).await.is_err());
+            known.clear_half_buffer(input).await;
+            assert_eq!(rig.take_rules(), []);
+            assert_eq!(known.control(64).control_in(&request, &mut [0; 18]).await, Ok(18));
+        });
+        if input {
+            assert_eq!(rig.take_rules(), []);
+        } else {
+            assert_broken(&rig, Rule::TtNotCleared);
+        }
+    }
+}
