@@ -30,10 +30,7 @@ impl Hush {
 
     /// Returns how many were kept back, once their second is over; `None` when there is nothing to tell yet.
     pub fn kept_back(&mut self, now: u64) -> Option<u32> {
-        (self.kept_back > 0 && self.is_over(now)).then(|| {
-            self.spoke = Some(now);
-            core::mem::take(&mut self.kept_back)
-        })
+        if self.kept_back > 0 && self.is_over(now) { self.speak(now) } else { None }
     }
 
     fn is_over(&self, now: u64) -> bool {

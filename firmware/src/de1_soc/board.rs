@@ -9,7 +9,7 @@ use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
 use heapless::spsc::Queue;
 
-use super::arguments::{self, UsbWishes, Words};
+use super::arguments::{self, ArgumentError, Asked, UsbWishes};
 use super::blink::Blink;
 use super::bridges::Bridges;
 use super::fpga::Fpga;
@@ -73,7 +73,7 @@ pub(super) struct Board {
     /// What follows from the last run's end.
     pub(super) verdict: Verdict,
     /// What U-Boot's `go` was told.
-    pub(super) arguments: Words,
+    pub(super) asked: Result<Asked, ArgumentError>,
 }
 
 impl Now for GlobalTimer {
@@ -93,7 +93,7 @@ impl Board {
             return None;
         }
         // SAFETY: the MMU is off.
-        let arguments = unsafe { arguments::of_go(arguments_of_go()) };
+        let asked = arguments::asked(&unsafe { arguments::of_go(arguments_of_go()) });
         let resets = resets();
         resets.hold_core_1();
         // First, so that a fault has somewhere to be told.
@@ -110,12 +110,12 @@ impl Board {
             start::bring_up(&CLUSTER, table, hooks)
         };
         // SAFETY: the first call, so these are the only drivers.
-        Some(unsafe { Self::drivers(start, arguments) })
+        Some(unsafe { Self::drivers(start, asked) })
     }
 
     /// # Safety
     /// Called once, with the MMU on and UART0 set up.
-    unsafe fn drivers(start: start::Report, arguments: Words) -> Self {
+    unsafe fn drivers(start: start::Report, asked: Result<Asked, ArgumentError>) -> Self {
         static mut LINK_BYTES: Queue<u8, LINK_QUEUE> = Queue::new();
         static USB_ROOM: Room<GlobalTimer> = Room::new();
 
@@ -143,7 +143,7 @@ impl Board {
             resets.release(Peripheral::Usb1);
             let core = Dwc2Core::at(USB, USB_MEMORY, clock, drain_to_memory);
             // What cannot be followed is told once there is a console.
-            let wishes = arguments::asked(&arguments).unwrap_or_default().usb;
+            let wishes = asked.as_ref().map(|asked| asked.usb).unwrap_or_default();
             let usb = Service::new(&USB_ROOM, core, usb_config(wishes), clock).expect("the room is taken once");
 
             for interrupt in [InterruptId::PRIVATE_TIMER, UART_INTERRUPT, USB_INTERRUPT] {
@@ -179,7 +179,7 @@ impl Board {
                 start,
                 cause,
                 verdict,
-                arguments,
+                asked,
             }
         }
     }

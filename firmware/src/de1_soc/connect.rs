@@ -5,7 +5,7 @@ use core::fmt::Write;
 use embedded_hal::digital::{InputPin, OutputPin};
 use fpga_regs::RenderError;
 
-use super::arguments::{self, Image};
+use super::arguments::{Asked, Image};
 use super::blink::Blink;
 use super::fpga_manager::Status;
 use super::memory_map::FPGA_IMAGE_SINK;
@@ -40,12 +40,9 @@ impl ViewerBoard {
 
     /// Configures the FPGA if U-Boot's `go` named an image.
     pub(super) fn configure_if_asked(&mut self) {
-        match arguments::asked(&self.arguments) {
-            Ok(asked) => {
-                if let Some(image) = asked.image {
-                    self.configure(image);
-                }
-            }
+        match &self.asked {
+            Ok(Asked { image: Some(image), .. }) => self.configure(*image),
+            Ok(_) => {}
             Err(error) => {
                 let _ = writeln!(self.console, "{error}");
             }
@@ -70,7 +67,7 @@ impl ViewerBoard {
     /// Returns the mesh file that U-Boot's `go` named.
     pub(super) fn asked_mesh(&self) -> Option<&'static [u8]> {
         // What is wrong with the words was told when the FPGA's image was looked for.
-        let Image { address, bytes } = arguments::asked(&self.arguments).ok()?.mesh?;
+        let Image { address, bytes } = self.asked.as_ref().ok()?.mesh?;
         // SAFETY: `arguments` checked that the file lies in a window which the table maps and nobody writes to.
         Some(unsafe {
             core::slice::from_raw_parts(core::ptr::with_exposed_provenance(address as usize), bytes as usize)

@@ -6,7 +6,7 @@ use controls::{PanelReport, Report};
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_io::{Read, ReadReady, Write as _};
 
-use super::arguments::Words;
+use super::arguments::{ArgumentError, Asked};
 use super::board::Board as Drivers;
 use super::bridge_port::BridgePort;
 use super::fpga::Fpga;
@@ -42,7 +42,7 @@ pub(super) struct ViewerBoard {
     pub(super) start: start::Report,
     pub(super) cause: ResetCause,
     pub(super) verdict: Verdict,
-    pub(super) arguments: Words,
+    pub(super) asked: Result<Asked, ArgumentError>,
     merge: Merge,
     readout: Readout,
     /// The score, while the game is played.
@@ -59,7 +59,7 @@ pub(super) struct ViewerBoard {
 
 impl ViewerBoard {
     pub(super) fn new(drivers: Drivers) -> Self {
-        let Drivers { console, link, clock, led, key, fpga, panel, start, cause, verdict, arguments } = drivers;
+        let Drivers { console, link, clock, led, key, fpga, panel, start, cause, verdict, asked } = drivers;
         let readout = Readout::new(clock.microseconds());
         let (score, told, frames, calls, deaf_told, unexpected) = (None, None, 0, 0, false, 0);
         Self {
@@ -73,7 +73,7 @@ impl ViewerBoard {
             start,
             cause,
             verdict,
-            arguments,
+            asked,
             merge: Merge::default(),
             readout,
             score,

@@ -29,13 +29,19 @@ fn address_shared() {
     assert_broken(&rig, Rule::AddressShared);
 }
 
-#[test]
-fn tt_not_cleared() {
+/// A device behind a hub's translator that can be broken.
+fn with_a_faulty_device() -> (Rig, Shared<Faulty<Gadget>>) {
     let rig = Rig::new(Config::new());
     let device = Shared::new(Faulty::new(Gadget::new(Speed::Full)));
     let mut hub = Hub::new(Speed::High);
     hub.plug(1, Box::new(device.clone()));
     rig.plug(hub);
+    (rig, device)
+}
+
+#[test]
+fn tt_not_cleared() {
+    let (rig, device) = with_a_faulty_device();
     // A stack that tries again at once.
     rig.run(async {
         let mut host = HubHost::on_root(&rig).await.unwrap();
@@ -53,11 +59,7 @@ fn tt_not_cleared() {
 #[test]
 fn tt_half_cleared() {
     for input in [false, true] {
-        let rig = Rig::new(Config::new());
-        let device = Shared::new(Faulty::new(Gadget::new(Speed::Full)));
-        let mut hub = Hub::new(Speed::High);
-        hub.plug(1, Box::new(device.clone()));
-        rig.plug(hub);
+        let (rig, device) = with_a_faulty_device();
         rig.run(async {
             let mut host = HubHost::on_root(&rig).await.unwrap();
             let known = host.enumerate(&rig, 1, 5).await.unwrap();
