@@ -1,11 +1,20 @@
-//! Runs a build of cargo's with its words as the progress of a step.
+//! Cargo as a command, and a build of its with its words as the progress of a step.
 
+use std::env;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, bail};
 
+use crate::paths::workspace_root;
 use crate::progress::Step;
+
+/// Returns the cargo that this program was started by, else that of the path, in the workspace.
+pub fn cargo() -> Command {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(workspace_root());
+    cargo
+}
 
 /// Runs `cargo`; `what` is what it builds, like `the firmware for de1-soc`.
 ///

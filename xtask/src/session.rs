@@ -90,6 +90,14 @@ pub fn game() -> anyhow::Result<Vec<ScenePart>> {
     read(&crate::paths::workspace_root().join(GAME)).context("write it again with `cargo xtask generate`")
 }
 
+/// Reads all of them, the recorded game first.
+///
+/// # Errors
+/// As [`read`].
+pub fn all() -> anyhow::Result<Vec<ScenePart>> {
+    Ok([game()?, seeds()?, demo()?].concat())
+}
+
 /// Parses a session's text.
 ///
 /// # Errors

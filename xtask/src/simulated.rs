@@ -4,7 +4,6 @@
 //! FPGA wants Verilator where it is the true one. Orders go to it as lines of JSON, and each is
 //! answered by a line.
 
-use std::env;
 use std::fmt;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -14,7 +13,7 @@ use anyhow::{Context, bail, ensure};
 use serde::{Deserialize, Serialize};
 
 use crate::cargo_build;
-use crate::paths::{target_folder, workspace_root};
+use crate::paths::target_folder;
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::setup::{ensure_verilator, ensure_wave_library};
@@ -88,8 +87,8 @@ impl Simulator {
             features.push("window");
         }
         let step = progress.step("building the board's simulator, which takes a minute the first time");
-        let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.current_dir(workspace_root()).args(["build", "--package", CRATE, "--bin", PROGRAM]);
+        let mut cargo = cargo_build::cargo();
+        cargo.args(["build", "--package", CRATE, "--bin", PROGRAM]);
         cargo.args(["--profile", profile, "--features", &features.join(",")]);
         cargo_build::run(cargo, "the simulator", &step)?;
         step.done();

@@ -1,12 +1,9 @@
 //! What the USB driver costs while a pad and a keyboard are there: calls and register accesses a second.
 
-use std::env;
-use std::process::Command;
-
 use anyhow::{Context, ensure};
 
+use crate::cargo_build;
 use crate::measure::Measurement;
-use crate::paths::workspace_root;
 
 /// The test that counts on the strict model, and prints what it holds against its bars.
 const TEST: [&str; 8] = ["test", "--quiet", "--package", "host-tests", "--test", "usb_driver", "whole::cost", "--"];
@@ -18,8 +15,8 @@ const FIGURE: &str = "bench: ";
 /// # Errors
 /// When the test does not build or fails.
 pub fn measurements() -> anyhow::Result<Vec<Measurement>> {
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    let output = cargo.current_dir(workspace_root()).args(TEST).arg("--nocapture").output();
+    let mut cargo = cargo_build::cargo();
+    let output = cargo.args(TEST).arg("--nocapture").output();
     let output = output.context("cannot start cargo: is Rust installed?")?;
     let text = String::from_utf8_lossy(&output.stdout);
     ensure!(

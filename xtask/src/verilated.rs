@@ -3,7 +3,6 @@
 //! They are programs of their own because xtask must build where there is no Verilator. A job goes
 //! to them as an argument, in JSON; figures come back as lines of JSON, pictures as files.
 
-use std::env;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -18,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::cargo_build;
 use crate::console::Console;
 use crate::measure::Measurement;
-use crate::paths::{TemporaryFolder, target_folder, workspace_root};
+use crate::paths::{TemporaryFolder, target_folder};
 use crate::picture::Picture;
 use crate::progress::Progress;
 use crate::setup::{ensure_verilator, ensure_wave_library};
@@ -111,8 +110,8 @@ impl Verilated {
             ensure_wave_library(progress)?;
         }
         let step = progress.step("building the FPGA's design with Verilator, which takes a minute the first time");
-        let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        cargo.current_dir(workspace_root()).args(["build", "--package", CRATE, "--bins"]);
+        let mut cargo = cargo_build::cargo();
+        cargo.args(["build", "--package", CRATE, "--bins"]);
         cargo.args(waves.then_some(["--features", "waves"]).iter().flatten());
         cargo_build::run(cargo, "the FPGA's design", &step)?;
         step.done();

@@ -1,14 +1,12 @@
 //! Steps that are cargo's.
 
-use std::env;
 use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, bail};
 
 use super::{State, rtl};
-use crate::paths::workspace_root;
-use crate::{simulated, verilated};
+use crate::{cargo_build, simulated, verilated};
 
 /// Features that are off by default.
 const FEATURES: &str = "rtl-sim/waves,simulator/rtl,simulator/window";
@@ -78,7 +76,7 @@ fn component(name: &str, version: &[&str]) -> anyhow::Result<()> {
 
 fn cargo(arguments: &[&str]) -> Command {
     // The cargo that runs this program, if one does.
-    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.args(arguments).current_dir(workspace_root());
+    let mut command = cargo_build::cargo();
+    command.args(arguments);
     command
 }

@@ -1,6 +1,5 @@
 //! `cargo xtask bench`: measures the cost per vertex, triangle and pixel, the FPGA's clocks, and the USB code.
 
-use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -10,13 +9,14 @@ use anyhow::{Context, ensure};
 use crate::area;
 use crate::boot::Bootable;
 use crate::card::program::Program;
+use crate::cargo_build;
 use crate::cli::{BenchArguments, Board};
 use crate::code_size;
 use crate::fill;
 use crate::firmware_build::build_firmware;
 use crate::frame_model;
 use crate::measure::{self, Measurement};
-use crate::paths::{target_folder, workspace_root};
+use crate::paths::target_folder;
 use crate::progress::Progress;
 use crate::session;
 use crate::setup::ensure_firmware_toolchain;
@@ -86,8 +86,8 @@ pub fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
 /// Runs this command again as the profile `measure` builds it: times with overflow checks say little.
 fn run_optimised(arguments: &BenchArguments) -> anyhow::Result<()> {
     let step = Progress::new().step("building xtask optimised, which takes a minute the first time");
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.current_dir(workspace_root()).args(["build", "--quiet", "--profile", "measure", "--package", "xtask"]);
+    let mut cargo = cargo_build::cargo();
+    cargo.args(["build", "--quiet", "--profile", "measure", "--package", "xtask"]);
     let status = cargo.status().context("cannot start cargo: is Rust installed?")?;
     ensure!(status.success(), "xtask does not build optimised ({status}); cargo says why above");
     step.done();

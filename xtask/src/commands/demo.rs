@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
+use firmware::scene::Scene;
 
 use crate::boot;
 use crate::cli::{Board, DemoArguments};
@@ -70,10 +71,12 @@ pub fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
 fn parts(arguments: &DemoArguments) -> anyhow::Result<Vec<ScenePart>> {
     match arguments.scene {
         Some(scene) => {
-            let mut game = session::game()?;
-            game.iter_mut().for_each(|part| part.frames.truncate(GAME_FRAMES));
-            let all = [game, session::seeds()?, session::demo()?].concat();
-            Ok(all.into_iter().filter(|part| part.scene == scene).collect())
+            let mut parts = session::all()?;
+            parts.retain(|part| part.scene == scene);
+            if scene == Scene::Game {
+                parts.iter_mut().for_each(|part| part.frames.truncate(GAME_FRAMES));
+            }
+            Ok(parts)
         }
         None if arguments.seeds => session::seeds(),
         None => session::demo(),

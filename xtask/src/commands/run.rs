@@ -82,8 +82,7 @@ fn parts(arguments: &RunArguments) -> anyhow::Result<Vec<ScenePart>> {
     }
     let first = if arguments.model.is_some() { Scene::Model } else { Scene::ALL[0] };
     let scene = arguments.scene.unwrap_or(first);
-    let known = [session::game()?, session::seeds()?, session::demo()?].concat();
-    let named = known.into_iter().find(|part| part.scene == scene);
+    let named = session::all()?.into_iter().find(|part| part.scene == scene);
     let part = named.unwrap_or(ScenePart { scene, style: None, frames: vec![None] });
     Ok(vec![ScenePart { style: arguments.style.or(part.style), ..part }])
 }
