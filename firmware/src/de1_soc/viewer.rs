@@ -153,11 +153,10 @@ impl Board for ViewerBoard {
     }
 
     fn poll_controllers(&mut self, intake: &mut Intake) -> u32 {
-        // First, while it is known that the FPGA runs: what USB has to tell takes milliseconds of the console's line.
-        let report = self.panel_report();
         let next = || with_usb(Service::next_news).flatten();
         let Taken { mut unreadable, faults } = take_in(next, &mut self.merge, intake, &mut self.console);
         (0..faults).for_each(|_| self.count_fault());
+        let report = self.panel_report();
         if self.told.replace(report) != Some(report) {
             unreadable += u32::from(intake.accept(Report::Panel(&report.to_bytes())).is_err());
         }
